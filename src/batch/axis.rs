@@ -1,27 +1,27 @@
-//! `Axis`, one thing that a sweep varies and the values it takes.
+//! `CheckedAxis`, one thing that a sweep varies and the values it takes.
 
 use super::error::SweepProblem;
-use super::parameter::{Form, Parameter};
-use super::values::{AxisValue, Over, Written};
+use super::parameter::{Parameter, ValueForm};
+use super::values::{AxisValue, Over, WrittenNumber};
 use motion_lab_core::random::{Seed, Stream};
 
 /// An axis whose values fit its parameter.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Axis {
+pub(super) struct CheckedAxis {
     pub parameter: Parameter,
     over: Over,
 }
 
-impl Axis {
+impl CheckedAxis {
     /// The axis, if its values fit its parameter.
     pub fn try_new(parameter: Parameter, over: Over) -> Result<Self, SweepProblem> {
         let form = parameter.form();
         let fits = matches!(
             (&over, form),
-            (Over::Range(..) | Over::Values(_) | Over::Steps(..) | Over::Uniform(..), Form::Number(_))
-                | (Over::Range(..) | Over::Values(_), Form::Whole(_))
-                | (Over::Names(_), Form::Name)
-                | (Over::Starts(_), Form::Start)
+            (Over::Range(..) | Over::Values(_) | Over::Steps(..) | Over::Uniform(..), ValueForm::Number(_))
+                | (Over::Range(..) | Over::Values(_), ValueForm::Whole(_))
+                | (Over::Names(_), ValueForm::Name)
+                | (Over::Starts(_), ValueForm::Start)
         );
         if !fits {
             return Err(SweepProblem::Values { found: over.in_words(), expected: form.in_words() });
@@ -29,7 +29,7 @@ impl Axis {
         if let Some(wrong) = over.numbers().into_iter().find(|x| !x.is_finite()) {
             return Err(SweepProblem::NotFinite(wrong));
         }
-        if let (Form::Whole(_), Over::Values(values)) = (form, &over)
+        if let (ValueForm::Whole(_), Over::Values(values)) = (form, &over)
             && let Some(wrong) = values.iter().find(|value| value.whole().is_none())
         {
             return Err(SweepProblem::NotWhole(wrong.real()));
@@ -40,7 +40,7 @@ impl Axis {
                 Err(SweepProblem::Span(from, to))
             }
             _ if over.len() == Some(0) => Err(SweepProblem::Empty),
-            over => Ok(Axis { parameter, over }),
+            over => Ok(CheckedAxis { parameter, over }),
         }
     }
 
@@ -73,9 +73,9 @@ impl Axis {
         }
     }
 
-    fn written(&self, value: Written) -> AxisValue {
+    fn written(&self, value: WrittenNumber) -> AxisValue {
         match (self.parameter.form(), value.whole()) {
-            (Form::Whole(_), Some(n)) => AxisValue::Whole(n),
+            (ValueForm::Whole(_), Some(n)) => AxisValue::Whole(n),
             _ => self.number(value.real()),
         }
     }
@@ -87,7 +87,7 @@ impl Axis {
 
     fn whole(&self, n: u64) -> AxisValue {
         match self.parameter.form() {
-            Form::Number(_) => AxisValue::Number(n as f64),
+            ValueForm::Number(_) => AxisValue::Number(n as f64),
             _ => AxisValue::Whole(n),
         }
     }

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::axis::Axis;
+use super::axis::CheckedAxis;
 use super::csv;
-use super::parameter::{Form, Parameter, RobotParameter};
+use super::parameter::{Parameter, RobotParameter, ValueForm};
 use motion_lab_core::configuration::RobotKind;
 
 /// The kind of a column's values.
@@ -60,14 +60,14 @@ fn column(name: impl Into<String>, kind: CellKind, unit: &str, about: impl Into<
 }
 
 /// The columns of one axis.
-fn of_axis(axis: &Axis) -> Vec<Column> {
+fn of_axis(axis: &CheckedAxis) -> Vec<Column> {
     let name = axis.parameter.name();
-    let about = "varied by the plan";
+    let about = "varied by the study";
     match axis.parameter.form() {
-        Form::Whole(unit) => vec![column(name, CellKind::Whole, unit, about)],
-        Form::Number(unit) => vec![column(name, CellKind::Number, unit, about)],
-        Form::Name => vec![column(name, CellKind::Text, "", about)],
-        Form::Start => {
+        ValueForm::Whole(unit) => vec![column(name, CellKind::Whole, unit, about)],
+        ValueForm::Number(unit) => vec![column(name, CellKind::Number, unit, about)],
+        ValueForm::Name => vec![column(name, CellKind::Text, "", about)],
+        ValueForm::Start => {
             let kind = match &axis.parameter {
                 Parameter::Robot { kind, of: RobotParameter::Start, .. } => RobotKind::of(kind),
                 _ => None,
@@ -91,7 +91,7 @@ pub(super) fn heading(columns: &[Column]) -> String {
 /// The columns of a table: the row's number, seed and length, the axes, the run as a whole, then each robot.
 /// A planner's are there where its paths have a unit.
 pub(super) fn columns(
-    axes: &[Axis],
+    axes: &[CheckedAxis],
     has_goal: bool,
     planned: Option<&'static str>,
     robots: &[RobotColumns],

@@ -1,18 +1,18 @@
-//! The errors of a sweep's plan, with file, line, column and item.
+//! The errors of a sweep's study, with file, line, column and item.
 
 use std::fmt;
 
-/// The version of the plan format that is read.
+/// The version of the study format that is read.
 pub const PLAN_VERSION: u64 = 1;
 
 /// Largest number of runs of a sweep.
 pub const MAX_RUNS: u64 = 10_000_000;
 
-/// Why a plan is refused, with its place.
+/// Why a study is refused, with its place.
 ///
-/// Prints as `plan.ron:5:9: axes[1] "Rusty.start.z": there is no such parameter: ...`.
+/// Prints as `study.ron:5:9: axes[1] "Rusty.start.z": there is no such parameter: ...`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SweepPlanError {
+pub struct StudyError {
     /// The file, as the caller named it.
     pub file: String,
     /// The line, from 1: where the item begins, or where reading stopped.
@@ -25,7 +25,7 @@ pub struct SweepPlanError {
     pub problem: SweepProblem,
 }
 
-impl fmt::Display for SweepPlanError {
+impl fmt::Display for StudyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
         if !self.item.is_empty() {
@@ -35,9 +35,9 @@ impl fmt::Display for SweepPlanError {
     }
 }
 
-impl std::error::Error for SweepPlanError {}
+impl std::error::Error for StudyError {}
 
-/// Why a plan is refused.
+/// Why a study is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SweepProblem {
@@ -55,7 +55,7 @@ pub enum SweepProblem {
         /// The robots that are there.
         there: String,
     },
-    /// A run that cannot be as the plan has it, whatever the axes.
+    /// A run that cannot be as the study has it, whatever the axes.
     #[error("{0}")]
     Run(String),
     /// The goal's numbers of coordinates and tolerances are not those of its robot.
@@ -68,7 +68,7 @@ pub enum SweepProblem {
         /// The coordinates of the robot's start.
         expected: usize,
     },
-    /// A planner in a plan that gives it nothing to do, with the reason.
+    /// A planner in a study that gives it nothing to do, with the reason.
     #[error("{0}")]
     Planner(&'static str),
     /// An axis whose ends are too far apart for a number.
@@ -80,7 +80,7 @@ pub enum SweepProblem {
     /// A parameter that nothing has.
     #[error("there is no such parameter: vary {0}")]
     Parameter(String),
-    /// A parameter that changes nothing in any run of the plan.
+    /// A parameter that changes nothing in any run of the study.
     #[error("it would change nothing: {0}")]
     Idle(String),
     /// A start with other coordinates than any robot of its name has.
@@ -91,7 +91,7 @@ pub enum SweepProblem {
         /// What is wrong with it.
         reason: String,
     },
-    /// A plan none of whose runs can be.
+    /// A study none of whose runs can be.
     #[error("none of its {runs} runs can be; the first one, because: {reason}")]
     NoRun {
         /// The number of runs.

@@ -1,8 +1,8 @@
 //! `RowGatherer`, which makes a row of a run while it goes on.
 
 use super::columns::RobotColumns;
-use super::plan::SweepPlan;
-use super::row::{Cell, RunRow};
+use super::row::{RowValue, RunRow};
+use super::study::Study;
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::num::lesser;
 use motion_lab_core::worlds::Resident;
@@ -25,7 +25,7 @@ struct GoalWatch<'a> {
 
 /// Gathers the row of a run frame by frame.
 pub struct RowGatherer<'a> {
-    plan: &'a SweepPlan,
+    study: &'a Study,
     row: u64,
     residents: Vec<&'a Resident>,
     stats: StatsGatherer<'a>,
@@ -34,15 +34,15 @@ pub struct RowGatherer<'a> {
 
 impl<'a> RowGatherer<'a> {
     /// A gatherer for the run of this row.
-    pub fn new(plan: &'a SweepPlan, row: u64, config: &'a TourConfig, script: &'a Script) -> Self {
+    pub fn new(study: &'a Study, row: u64, config: &'a TourConfig, script: &'a Script) -> Self {
         let residents: Vec<&Resident> = config.worlds.iter().flat_map(|world| &world.robots).collect();
-        let goal = plan.goal().and_then(|goal| {
+        let goal = study.goal().and_then(|goal| {
             let robot = residents.iter().position(|resident| resident.name == goal.robot)?;
-            let about = plan.kinds.of(&residents[robot].kind);
+            let about = study.kinds.of(&residents[robot].kind);
             Some(GoalWatch { robot, about, at: &goal.at, within: &goal.within, ticks: 0, first: None })
         });
-        let stats = StatsGatherer::new(config, script, &plan.kinds);
-        RowGatherer { plan, row, residents, stats, goal }
+        let stats = StatsGatherer::new(config, script, &study.kinds);
+        RowGatherer { study, row, residents, stats, goal }
     }
 
     /// Sees the next frame; the first one is that of tick 0.
@@ -59,37 +59,37 @@ impl<'a> RowGatherer<'a> {
 
     /// The row of the run that ended with this frame and digest.
     pub fn row(self, last: &Frame, digest: Digest, refusals: &Refusals) -> RunRow {
-        let RowGatherer { plan, row, residents, stats, goal } = self;
+        let RowGatherer { study, row, residents, stats, goal } = self;
         let stats = stats.stats().robots;
         let failure = match (refusals.first(), &goal) {
             (Some(first), _) => format!("{} inputs were refused, the first at {first}", refusals.count()),
             (None, Some(goal)) if goal.first.is_none() => "the goal was not reached".into(),
-            (None, None) if plan.goal().is_some() => "the goal's robot is not in this run".into(),
+            (None, None) if study.goal().is_some() => "the goal's robot is not in this run".into(),
             _ => String::new(),
         };
         let first = stats.iter().filter_map(|robot| robot.first_contact).min();
         let least = stats.iter().filter_map(|robot| robot.least_clearance).map(|least| least.metres).reduce(lesser);
         let paths = stats.iter().filter_map(|robot| robot.path_length);
-        let mut cells = plan.parameters(row);
+        let mut cells = study.parameters(row);
         cells.extend([
-            Cell::text(failure),
-            Cell::Whole(stats.iter().map(|robot| u64::from(robot.contacts)).sum()),
-            Cell::finite(first.map(seconds)),
-            Cell::finite(least),
-            Cell::finite(Some(paths.sum())),
+            RowValue::text(failure),
+            RowValue::Whole(stats.iter().map(|robot| u64::from(robot.contacts)).sum()),
+            RowValue::finite(first.map(seconds)),
+            RowValue::finite(least),
+            RowValue::finite(Some(paths.sum())),
         ]);
-        if plan.goal().is_some() {
+        if study.goal().is_some() {
             let times = goal.map(|goal| (seconds(goal.ticks), goal.first.map(seconds)));
             cells.extend([
-                Cell::finite(times.map(|(there, _)| there)),
-                Cell::finite(times.and_then(|(_, first)| first)),
+                RowValue::finite(times.map(|(there, _)| there)),
+                RowValue::finite(times.and_then(|(_, first)| first)),
             ]);
         }
-        // what comes of planning is known before the run: `SweepPlan::with_planned`
-        let results = plan.columns().iter().position(|column| column.name == "digest").unwrap_or(cells.len());
-        cells.resize(results, Cell::Empty);
-        cells.push(Cell::text(digest.to_string()));
-        for columns in &plan.robots {
+        // what comes of planning is known before the run: `Study::with_planned`
+        let results = study.columns().iter().position(|column| column.name == "digest").unwrap_or(cells.len());
+        cells.resize(results, RowValue::Empty);
+        cells.push(RowValue::text(digest.to_string()));
+        for columns in &study.robots {
             let robot = residents.iter().position(|resident| resident.name == columns.name);
             let known = robot.and_then(|i| Some((residents[i], stats.get(i)?, last.robots.get(i)?)));
             cells.extend(of_robot(columns, known));
@@ -108,24 +108,24 @@ impl GoalWatch<'_> {
 }
 
 /// The cells of one robot; all of them empty for one that was not in the run.
-fn of_robot(columns: &RobotColumns, known: Option<(&Resident, &RobotStats, &RobotState)>) -> Vec<Cell> {
+fn of_robot(columns: &RobotColumns, known: Option<(&Resident, &RobotStats, &RobotState)>) -> Vec<RowValue> {
     let width = RobotKind::of(&columns.kind).map_or(0, |kind| kind.coordinates.len());
     let end = |i: usize| {
         let state = known.filter(|(resident, ..)| resident.kind == columns.kind).map(|(.., state)| state);
-        Cell::finite(state.and_then(|state| state.configuration.get(i)).copied())
+        RowValue::finite(state.and_then(|state| state.configuration.get(i)).copied())
     };
-    let mut cells: Vec<Cell> = (0..width).map(end).collect();
+    let mut cells: Vec<RowValue> = (0..width).map(end).collect();
     let Some((_, stats, _)) = known else {
-        cells.resize(width + super::columns::OF_ROBOT.len(), Cell::Empty);
+        cells.resize(width + super::columns::OF_ROBOT.len(), RowValue::Empty);
         return cells;
     };
     cells.extend([
-        Cell::Whole(u64::from(stats.contacts)),
-        Cell::Number(stats.contact_seconds()),
-        Cell::finite(stats.first_contact.map(seconds)),
-        Cell::finite(stats.least_clearance.map(|least| least.metres)),
-        Cell::finite(stats.path_length),
-        Cell::Whole(u64::from(stats.refusals)),
+        RowValue::Whole(u64::from(stats.contacts)),
+        RowValue::Number(stats.contact_seconds()),
+        RowValue::finite(stats.first_contact.map(seconds)),
+        RowValue::finite(stats.least_clearance.map(|least| least.metres)),
+        RowValue::finite(stats.path_length),
+        RowValue::Whole(u64::from(stats.refusals)),
     ]);
     cells
 }

@@ -1,7 +1,7 @@
-//! Parameter sweeps as values: a plan, its axes, the run of each row, the rows as tables, and shards of them.
+//! Parameter sweeps as values: a study, its axes, the run of each row, the rows as tables, and shards of them.
 //!
-//! A row is a function of the plan and its number alone, so that any number of jobs, shards and machines makes the same
-//! bytes. A plan file is RON:
+//! A row is a function of the study and its number alone, so that any number of jobs, shards and machines makes the
+//! same bytes. A study file is RON:
 //!
 //! ```ron
 //! Sweep(
@@ -25,25 +25,25 @@ mod error;
 mod gatherer;
 mod parameter;
 mod part;
-mod plan;
-mod plan_file;
-mod plan_text;
 mod planning;
 mod points;
 mod row;
 mod shard;
+mod study;
+mod study_file;
+mod study_text;
 mod table;
 #[cfg(test)]
 mod tests;
 mod values;
 
 pub use columns::{CellKind, Column, MAX_ROBOT_COLUMNS};
-pub use error::{MAX_RUNS, PLAN_VERSION, SweepPlanError, SweepProblem};
+pub use error::{MAX_RUNS, PLAN_VERSION, StudyError, SweepProblem};
 pub use gatherer::RowGatherer;
 pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};
-pub use plan::{RunInputs, RunSetup, SweepPlan};
-pub use plan_file::PlanFile;
-pub use planning::{Planned, PlannedPath, Planning};
-pub use row::{Cell, RunRow};
+pub use planning::{PlannedPath, Planning, PlanningResult};
+pub use row::{RowValue, RunRow};
 pub use shard::{Shard, ShardError};
+pub use study::{RunInputs, RunSetup, Study};
+pub use study_file::StudyFile;
 pub use table::{TableError, TableFile, TableWriter};

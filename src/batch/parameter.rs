@@ -58,7 +58,7 @@ pub(super) enum RobotParameter {
 
 /// The form of a parameter's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(super) enum ValueForm {
     /// Whole numbers, with a unit.
     Whole(&'static str),
     /// Numbers, with a unit.
@@ -69,18 +69,18 @@ pub(super) enum Form {
     Start,
 }
 
-impl Form {
+impl ValueForm {
     pub fn in_words(self) -> &'static str {
         match self {
-            Form::Whole(_) => "Range(FROM, TO), or whole numbers in Values([...])",
-            Form::Number(_) => "Values([...]), Steps(FROM, TO, COUNT), Uniform(FROM, TO) or Range(FROM, TO)",
-            Form::Name => "Names([...])",
-            Form::Start => "Starts([[...], [...]])",
+            ValueForm::Whole(_) => "Range(FROM, TO), or whole numbers in Values([...])",
+            ValueForm::Number(_) => "Values([...]), Steps(FROM, TO, COUNT), Uniform(FROM, TO) or Range(FROM, TO)",
+            ValueForm::Name => "Names([...])",
+            ValueForm::Start => "Starts([[...], [...]])",
         }
     }
 }
 
-/// What a plan has beside its worlds.
+/// What a study has beside its worlds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sources {
     /// A range sensor of the run.
@@ -92,18 +92,18 @@ pub(super) struct Sources {
 }
 
 /// The parameters of a run by name.
-const OF_RUN: [(&str, RunParameter, Form); 11] = [
-    ("seed", RunParameter::Seed, Form::Whole("")),
-    ("ticks", RunParameter::Ticks, Form::Whole("ticks")),
-    ("script", RunParameter::Script, Form::Name),
-    ("planner", RunParameter::Planner, Form::Name),
-    ("planner.iterations", RunParameter::PlannerIterations, Form::Whole("")),
-    ("planner.tube", RunParameter::PlannerTube, Form::Number("m")),
-    ("world", RunParameter::World, Form::Name),
-    ("sensor.rays", RunParameter::Rays, Form::Whole("")),
-    ("sensor.range", RunParameter::Range, Form::Number("m")),
-    ("warehouse.seed", RunParameter::WarehouseSeed, Form::Whole("")),
-    ("warehouse.robots", RunParameter::WarehouseRobots, Form::Whole("")),
+const OF_RUN: [(&str, RunParameter, ValueForm); 11] = [
+    ("seed", RunParameter::Seed, ValueForm::Whole("")),
+    ("ticks", RunParameter::Ticks, ValueForm::Whole("ticks")),
+    ("script", RunParameter::Script, ValueForm::Name),
+    ("planner", RunParameter::Planner, ValueForm::Name),
+    ("planner.iterations", RunParameter::PlannerIterations, ValueForm::Whole("")),
+    ("planner.tube", RunParameter::PlannerTube, ValueForm::Number("m")),
+    ("world", RunParameter::World, ValueForm::Name),
+    ("sensor.rays", RunParameter::Rays, ValueForm::Whole("")),
+    ("sensor.range", RunParameter::Range, ValueForm::Number("m")),
+    ("warehouse.seed", RunParameter::WarehouseSeed, ValueForm::Whole("")),
+    ("warehouse.robots", RunParameter::WarehouseRobots, ValueForm::Whole("")),
 ];
 
 /// The numbers of a beam model with their units.
@@ -111,8 +111,8 @@ const NOISE: [(&str, &str); 6] =
     [("sigma_hit", "m"), ("z_short", ""), ("lambda_short", "per_m"), ("z_miss", ""), ("z_max", ""), ("z_rand", "")];
 
 /// The numbers of a sensor of a robot's own beside its noise.
-const SENSOR: [(&str, Form); 3] =
-    [("rays", Form::Whole("")), ("range", Form::Number("m")), ("field_of_view", Form::Number("rad"))];
+const SENSOR: [(&str, ValueForm); 3] =
+    [("rays", ValueForm::Whole("")), ("range", ValueForm::Number("m")), ("field_of_view", ValueForm::Number("rad"))];
 
 impl Parameter {
     /// The parameter of this name; else what there is, in words.
@@ -169,7 +169,7 @@ impl Parameter {
     /// Why it changes nothing in any run with these robots; `None` where it may.
     pub fn idle(&self, robots: &[&Resident], there: Sources) -> Option<String> {
         use RunParameter::{Planner, PlannerIterations, PlannerTube};
-        let no_sensor = || "the plan has no range sensor for the run".to_owned();
+        let no_sensor = || "the study has no range sensor for the run".to_owned();
         match self {
             Parameter::Run(RunParameter::Rays | RunParameter::Range) if !there.sensor => Some(no_sensor()),
             Parameter::Run(RunParameter::Rays | RunParameter::Range) => {
@@ -177,10 +177,10 @@ impl Parameter {
                 (!is_carried).then(|| "no robot carries the run's sensor".to_owned())
             }
             Parameter::Run(RunParameter::WarehouseSeed | RunParameter::WarehouseRobots) => {
-                (!there.warehouse).then(|| "the plan has no warehouse".to_owned())
+                (!there.warehouse).then(|| "the study has no warehouse".to_owned())
             }
             Parameter::Run(Planner | PlannerIterations | PlannerTube) => {
-                (!there.planner).then(|| "the plan has no planner".to_owned())
+                (!there.planner).then(|| "the study has no planner".to_owned())
             }
             Parameter::Run(RunParameter::Script) if there.planner => Some("the planner makes the script".to_owned()),
             Parameter::Run(_) => None,
@@ -199,20 +199,23 @@ impl Parameter {
     }
 
     /// The form of its values.
-    pub fn form(&self) -> Form {
-        let noise = |number: &str| NOISE.iter().find(|(name, _)| *name == number).map(|(_, unit)| Form::Number(unit));
+    pub fn form(&self) -> ValueForm {
+        let noise =
+            |number: &str| NOISE.iter().find(|(name, _)| *name == number).map(|(_, unit)| ValueForm::Number(unit));
         match self {
             Parameter::Run(of) => {
-                OF_RUN.iter().find(|(_, known, _)| known == of).map_or(Form::Name, |(_, _, form)| *form)
+                OF_RUN.iter().find(|(_, known, _)| known == of).map_or(ValueForm::Name, |(_, _, form)| *form)
             }
             Parameter::Robot { kind, of, .. } => match of {
-                RobotParameter::Start => Form::Start,
-                RobotParameter::Coordinate(i) => Form::Number(RobotKind::of(kind).map_or("", |kind| kind.unit_of(*i))),
-                RobotParameter::Size(number) => Form::Number(Sizes::unit_of(number)),
-                RobotParameter::Noise(number) => noise(number).unwrap_or(Form::Number("")),
+                RobotParameter::Start => ValueForm::Start,
+                RobotParameter::Coordinate(i) => {
+                    ValueForm::Number(RobotKind::of(kind).map_or("", |kind| kind.unit_of(*i)))
+                }
+                RobotParameter::Size(number) => ValueForm::Number(Sizes::unit_of(number)),
+                RobotParameter::Noise(number) => noise(number).unwrap_or(ValueForm::Number("")),
                 RobotParameter::Sensor { number, .. } => {
                     let own = SENSOR.iter().find(|(name, _)| name == number).map(|(_, form)| *form);
-                    own.or_else(|| noise(number)).unwrap_or(Form::Number(""))
+                    own.or_else(|| noise(number)).unwrap_or(ValueForm::Number(""))
                 }
             },
         }

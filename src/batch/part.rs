@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! motion-lab sweep part 1
-//! the plan with all it names, one line of JSON
+//! the study with all it names, one line of JSON
 //! rows 0..250 of 1000
 //! row,seed,ticks,...
 //! 0,2005,1200,...
@@ -14,15 +14,15 @@ use std::ops::Range;
 
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
-use super::Cell;
+use super::RowValue;
 use super::columns::{Column, heading};
-use super::plan::SweepPlan;
 use super::row::RunRow;
+use super::study::Study;
 
 /// What a part begins with.
 const MAGIC: &str = "motion-lab sweep part 1";
 
-/// Largest length of a line, bytes. The plan's line holds its worlds and scripts.
+/// Largest length of a line, bytes. The study's line holds its worlds and scripts.
 const MAX_LINE: u64 = 256 << 20;
 
 /// Why a part can't be read.
@@ -38,9 +38,9 @@ pub enum PartError {
     /// Another file.
     #[error("it is no part of a sweep")]
     NotAPart,
-    /// A plan that can't be read, with the reason.
+    /// A study that can't be read, with the reason.
     #[error("{0}")]
-    Plan(String),
+    Study(String),
     /// A line that is none of this part's.
     #[error("line {0} is damaged")]
     Line(u64),
@@ -52,8 +52,8 @@ pub enum PartError {
 /// The head of a part: which rows of which sweep.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PartHead {
-    /// The plan's line: see [`SweepPlan::line`].
-    pub plan: String,
+    /// The study's line: see [`Study::line`].
+    pub study: String,
     /// The rows of the part.
     pub rows: Range<u64>,
     /// The number of rows of the sweep.
@@ -62,15 +62,15 @@ pub struct PartHead {
 
 impl PartHead {
     /// The head of these rows of a sweep.
-    pub fn new(plan: &SweepPlan, rows: Range<u64>) -> Self {
-        PartHead { plan: plan.line().to_owned(), rows, runs: plan.runs() }
+    pub fn new(study: &Study, rows: Range<u64>) -> Self {
+        PartHead { study: study.line().to_owned(), rows, runs: study.runs() }
     }
 
     /// Its lines, each with its end.
     pub fn to_text(&self, columns: &[Column]) -> String {
-        let PartHead { plan, rows: Range { start, end }, runs } = self;
+        let PartHead { study, rows: Range { start, end }, runs } = self;
         let names = heading(columns);
-        format!("{MAGIC}\n{plan}\nrows {start}..{end} of {runs}\n{names}\n")
+        format!("{MAGIC}\n{study}\nrows {start}..{end} of {runs}\n{names}\n")
     }
 
     fn read_rows(line: &str) -> Option<(Range<u64>, u64)> {
@@ -127,7 +127,7 @@ pub struct PartReader<R> {
     input: R,
     hasher: Xxh3,
     line: u64,
-    plan: SweepPlan,
+    study: Study,
     head: PartHead,
     next: u64,
 }
@@ -164,7 +164,7 @@ impl<R: BufRead> PartReader<R> {
     /// Reads the head of a part.
     ///
     /// # Errors
-    /// [`PartError`] for another file, a damaged head, or a plan that this program can't read in a part whose seal is
+    /// [`PartError`] for another file, a damaged head, or a study that this program can't read in a part whose seal is
     /// right.
     pub fn new(mut input: R) -> Result<Self, PartError> {
         let mut hasher = Xxh3::new();
@@ -181,23 +181,23 @@ impl<R: BufRead> PartReader<R> {
         }
         hasher.update(&magic);
         let plan_line = read_line(&mut input, &mut hasher)?.ok_or(PartError::Line(2))?;
-        let plan = match SweepPlan::of_line(&plan_line) {
-            Ok(plan) => plan,
-            Err(reason) if is_sealed(&mut input, &mut hasher)? => return Err(PartError::Plan(reason)),
+        let study = match Study::of_line(&plan_line) {
+            Ok(study) => study,
+            Err(reason) if is_sealed(&mut input, &mut hasher)? => return Err(PartError::Study(reason)),
             Err(_) => return Err(PartError::Seal),
         };
         let rows = read_line(&mut input, &mut hasher)?.and_then(|line| PartHead::read_rows(&line));
-        let (rows, runs) = rows.filter(|(_, runs)| *runs == plan.runs()).ok_or(PartError::Line(3))?;
-        if read_line(&mut input, &mut hasher)? != Some(plan.heading()) {
+        let (rows, runs) = rows.filter(|(_, runs)| *runs == study.runs()).ok_or(PartError::Line(3))?;
+        if read_line(&mut input, &mut hasher)? != Some(study.heading()) {
             return Err(PartError::Line(4));
         }
         let next = rows.start;
-        Ok(PartReader { input, hasher, line: 4, head: PartHead { plan: plan_line, rows, runs }, plan, next })
+        Ok(PartReader { input, hasher, line: 4, head: PartHead { study: plan_line, rows, runs }, study, next })
     }
 
-    /// The plan.
-    pub fn plan(&self) -> &SweepPlan {
-        &self.plan
+    /// The study.
+    pub fn study(&self) -> &Study {
+        &self.study
     }
 
     /// The head.
@@ -221,7 +221,7 @@ impl<R: BufRead> PartReader<R> {
             self.next += 1;
             return if line == format!("seal {before:032x}") && is_last { Ok(None) } else { Err(PartError::Seal) };
         }
-        let row = RunRow::of_line(&line, self.plan.columns()).filter(|row| row.row == self.next);
+        let row = RunRow::of_line(&line, self.study.columns()).filter(|row| row.row == self.next);
         let row = row.ok_or(PartError::Line(self.line))?;
         self.next += 1;
         Ok(Some((row, line)))
@@ -252,16 +252,16 @@ pub fn unsealed_line<'a>(sealed: &'a str, columns: &[Column]) -> Option<(u64, &'
 impl RunRow {
     /// Whether the run failed: it could not be run, or something failed in it.
     pub fn is_failure(&self, columns: &[Column]) -> bool {
-        self.cell(columns, "failure").is_some_and(|cell| *cell != Cell::Empty)
+        self.cell(columns, "failure").is_some_and(|cell| *cell != RowValue::Empty)
     }
 
     /// Whether there was a run at all: a row without a digest only says why not.
     pub fn could_run(&self, columns: &[Column]) -> bool {
-        self.cell(columns, "digest").is_some_and(|cell| *cell != Cell::Empty)
+        self.cell(columns, "digest").is_some_and(|cell| *cell != RowValue::Empty)
     }
 
     /// Whether a robot was in contact in the run.
     pub fn has_contacts(&self, columns: &[Column]) -> bool {
-        matches!(self.cell(columns, "contacts"), Some(Cell::Whole(1..)))
+        matches!(self.cell(columns, "contacts"), Some(RowValue::Whole(1..)))
     }
 }

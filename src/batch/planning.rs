@@ -1,8 +1,8 @@
-//! `Planning`, the path that a run is to follow, and `Planned`, what came of it.
+//! `Planning`, the path that a run is to follow, and `PlanningResult`, what came of it.
 //!
 //! The planners are those of `motion-lab plan`, by their names; the program resolves them, as it does files.
 
-use super::row::Cell;
+use super::row::RowValue;
 
 /// What is planned for a run. The robot is the only one of the run; it goes from its start.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Planning {
 
 /// What came of planning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Planned {
+pub struct PlanningResult {
     /// The iterations done.
     pub iterations: u64,
     /// The edges asked about.
@@ -39,12 +39,13 @@ pub struct PlannedPath {
     pub time: Option<f64>,
 }
 
-impl Planned {
+impl PlanningResult {
     /// The cells of a row, in the order of the columns.
-    pub(super) fn cells(&self) -> [Cell; 6] {
-        let Planned { iterations, edges, path } = *self;
-        let whole = [u64::from(path.is_some()), iterations, edges].map(Cell::Whole);
-        let numbers = [path.map(|p| p.length), path.map(|p| p.clearance), path.and_then(|p| p.time)].map(Cell::finite);
+    pub(super) fn cells(&self) -> [RowValue; 6] {
+        let PlanningResult { iterations, edges, path } = *self;
+        let whole = [u64::from(path.is_some()), iterations, edges].map(RowValue::Whole);
+        let numbers =
+            [path.map(|p| p.length), path.map(|p| p.clearance), path.and_then(|p| p.time)].map(RowValue::finite);
         let ([solved, iterations, edges], [length, clearance, time]) = (whole, numbers);
         [solved, iterations, edges, length, clearance, time]
     }

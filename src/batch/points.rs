@@ -1,15 +1,15 @@
-//! `Points`, which combinations of its axes' values a sweep runs.
+//! `Combinations`, which combinations of its axes' values a sweep runs.
 
 use serde::{Deserialize, Serialize};
 
-use super::axis::Axis;
+use super::axis::CheckedAxis;
 use super::error::{MAX_RUNS, SweepProblem};
 use super::values::AxisValue;
 use motion_lab_core::random::Seed;
 
 /// Which combinations are run, as written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Points {
+pub(super) enum Combinations {
     /// Every combination; the last axis changes with every row.
     #[default]
     Grid,
@@ -24,10 +24,10 @@ pub(super) enum Points {
     },
 }
 
-impl Points {
+impl Combinations {
     /// The number of rows. A problem comes with the number of its axis, if it is one's.
-    pub fn count(self, axes: &[Axis]) -> Result<u64, (Option<usize>, SweepProblem)> {
-        if let Points::Sample { count, .. } = self {
+    pub fn count(self, axes: &[CheckedAxis]) -> Result<u64, (Option<usize>, SweepProblem)> {
+        if let Combinations::Sample { count, .. } = self {
             return checked(count);
         }
         let mut lengths = Vec::with_capacity(axes.len());
@@ -35,7 +35,7 @@ impl Points {
             lengths.push(axis.len().ok_or((Some(i), SweepProblem::Continuous))?);
         }
         let Some(&expected) = lengths.first() else { return Ok(1) };
-        if self == Points::List {
+        if self == Combinations::List {
             return match lengths.iter().position(|found| *found != expected) {
                 Some(i) => Err((Some(i), SweepProblem::Lengths { found: lengths[i], expected })),
                 None => checked(expected),
@@ -45,9 +45,9 @@ impl Points {
     }
 
     /// The values of all axes in a row.
-    pub fn values(self, axes: &[Axis], row: u64) -> Vec<AxisValue> {
+    pub fn values(self, axes: &[CheckedAxis], row: u64) -> Vec<AxisValue> {
         match self {
-            Points::Grid => {
+            Combinations::Grid => {
                 let mut rest = row;
                 let mut values: Vec<AxisValue> = Vec::with_capacity(axes.len());
                 for axis in axes.iter().rev() {
@@ -58,8 +58,8 @@ impl Points {
                 values.reverse();
                 values
             }
-            Points::List => axes.iter().map(|axis| axis.value(row)).collect(),
-            Points::Sample { seed, .. } => axes.iter().map(|axis| axis.draw(Seed(seed), row)).collect(),
+            Combinations::List => axes.iter().map(|axis| axis.value(row)).collect(),
+            Combinations::Sample { seed, .. } => axes.iter().map(|axis| axis.draw(Seed(seed), row)).collect(),
         }
     }
 }

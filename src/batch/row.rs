@@ -5,7 +5,7 @@ use super::csv;
 
 /// A value of a row.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cell {
+pub enum RowValue {
     /// Nothing: not known, or not there.
     Empty,
     /// A whole number.
@@ -22,29 +22,29 @@ pub struct RunRow {
     /// Its number, from 0.
     pub row: u64,
     /// The cells of all columns, the first of which is that number.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<RowValue>,
 }
 
-impl Cell {
+impl RowValue {
     /// A number; nothing where it is not finite.
-    pub(super) fn finite(x: Option<f64>) -> Cell {
-        x.filter(|x| x.is_finite()).map_or(Cell::Empty, |x| Cell::Number(x + 0.0))
+    pub(super) fn finite(x: Option<f64>) -> RowValue {
+        x.filter(|x| x.is_finite()).map_or(RowValue::Empty, |x| RowValue::Number(x + 0.0))
     }
 
     /// A text, its line ends as blanks; nothing for an empty one.
-    pub(super) fn text(text: impl Into<String>) -> Cell {
+    pub(super) fn text(text: impl Into<String>) -> RowValue {
         let text: String = text.into().chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        if text.is_empty() { Cell::Empty } else { Cell::Text(text) }
+        if text.is_empty() { RowValue::Empty } else { RowValue::Text(text) }
     }
 
-    fn read(text: String, kind: CellKind) -> Option<Cell> {
+    fn read(text: String, kind: CellKind) -> Option<RowValue> {
         if text.is_empty() {
-            return Some(Cell::Empty);
+            return Some(RowValue::Empty);
         }
         Some(match kind {
-            CellKind::Whole => Cell::Whole(text.parse().ok()?),
-            CellKind::Number => Cell::Number(text.parse().ok().filter(|x: &f64| x.is_finite())?),
-            CellKind::Text => Cell::Text(text),
+            CellKind::Whole => RowValue::Whole(text.parse().ok()?),
+            CellKind::Number => RowValue::Number(text.parse().ok().filter(|x: &f64| x.is_finite())?),
+            CellKind::Text => RowValue::Text(text),
         })
     }
 }
@@ -54,10 +54,10 @@ impl RunRow {
     /// the same bits.
     pub fn to_line(&self) -> String {
         let texts = self.cells.iter().map(|cell| match cell {
-            Cell::Empty => String::new(),
-            Cell::Whole(n) => n.to_string(),
-            Cell::Number(x) => x.to_string(),
-            Cell::Text(text) => text.clone(),
+            RowValue::Empty => String::new(),
+            RowValue::Whole(n) => n.to_string(),
+            RowValue::Number(x) => x.to_string(),
+            RowValue::Text(text) => text.clone(),
         });
         csv::line(texts)
     }
@@ -68,17 +68,17 @@ impl RunRow {
         if texts.len() != columns.len() {
             return None;
         }
-        let cells: Vec<Cell> = texts
+        let cells: Vec<RowValue> = texts
             .into_iter()
             .zip(columns)
-            .map(|(text, column)| Cell::read(text, column.kind))
+            .map(|(text, column)| RowValue::read(text, column.kind))
             .collect::<Option<_>>()?;
-        let Some(Cell::Whole(row)) = cells.first() else { return None };
+        let Some(RowValue::Whole(row)) = cells.first() else { return None };
         Some(RunRow { row: *row, cells })
     }
 
     /// The cell of the column of this name.
-    pub fn cell(&self, columns: &[Column], name: &str) -> Option<&Cell> {
+    pub fn cell(&self, columns: &[Column], name: &str) -> Option<&RowValue> {
         self.cells.get(columns.iter().position(|column| column.name == name)?)
     }
 }

@@ -1,8 +1,8 @@
-//! Tables as Parquet, with the plan and the columns' units in the file's own metadata.
+//! Tables as Parquet, with the study and the columns' units in the file's own metadata.
 //!
 //! Whole numbers are unsigned 64-bit, numbers double, texts UTF-8. Two entries of the file's metadata say the rest:
-//! `motion-lab.columns`, a list of each column's name, kind, unit and meaning in JSON; and `motion-lab.plan`, the plan
-//! with all it names, from which a row can be run again.
+//! `motion-lab.columns`, a list of each column's name, kind, unit and meaning in JSON; and `motion-lab.study`, the
+//! study with all it names, from which a row can be run again.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -18,8 +18,8 @@ use parquet::record::{Field, Row};
 use parquet::schema::types::Type;
 
 use super::columns::{CellKind, Column};
-use super::plan::SweepPlan;
-use super::row::{Cell, RunRow};
+use super::row::{RowValue, RunRow};
+use super::study::Study;
 
 /// The keys of the file's metadata.
 const PLAN: &str = "motion-lab.plan";
@@ -38,9 +38,9 @@ pub enum TableError {
     /// A Parquet file that no sweep wrote.
     #[error("it is no table of a sweep: its metadata has no {0}")]
     NoSweep(&'static str),
-    /// A plan that can't be read, with the reason.
+    /// A study that can't be read, with the reason.
     #[error("{0}")]
-    Plan(String),
+    Study(String),
     /// A row that is not there.
     #[error("there is no row {row}: it has {rows}, from 0")]
     NoRow {
@@ -76,17 +76,17 @@ fn schema(columns: &[Column]) -> Result<Type, ParquetError> {
 }
 
 impl<W: Write + Send> TableWriter<W> {
-    /// Begins a table of the rows of a plan.
+    /// Begins a table of the rows of a study.
     ///
     /// # Errors
     /// [`TableError`] when the output can't be written.
-    pub fn new(output: W, plan: &SweepPlan) -> Result<Self, TableError> {
-        let columns = serde_json::to_string(plan.columns()).map_err(|error| ParquetError::External(error.into()))?;
-        let metadata = [(COLUMNS, columns), (PLAN, plan.line().to_owned())];
+    pub fn new(output: W, study: &Study) -> Result<Self, TableError> {
+        let columns = serde_json::to_string(study.columns()).map_err(|error| ParquetError::External(error.into()))?;
+        let metadata = [(COLUMNS, columns), (PLAN, study.line().to_owned())];
         let metadata = metadata.map(|(key, value)| KeyValue::new(key.to_owned(), value)).to_vec();
         let properties = WriterProperties::builder().set_key_value_metadata(Some(metadata)).build();
-        let writer = SerializedFileWriter::new(output, Arc::new(schema(plan.columns())?), Arc::new(properties))?;
-        let kinds = plan.columns().iter().map(|column| column.kind).collect();
+        let writer = SerializedFileWriter::new(output, Arc::new(schema(study.columns())?), Arc::new(properties))?;
+        let kinds = study.columns().iter().map(|column| column.kind).collect();
         Ok(TableWriter { writer, kinds, rows: Vec::new() })
     }
 
@@ -102,7 +102,8 @@ impl<W: Write + Send> TableWriter<W> {
     fn group(&mut self) -> Result<(), TableError> {
         let mut group = self.writer.next_row_group()?;
         for (i, kind) in self.kinds.iter().enumerate() {
-            let cells: Vec<&Cell> = self.rows.iter().map(|row| row.cells.get(i).unwrap_or(&Cell::Empty)).collect();
+            let cells: Vec<&RowValue> =
+                self.rows.iter().map(|row| row.cells.get(i).unwrap_or(&RowValue::Empty)).collect();
             column(&mut group, *kind, &cells)?;
         }
         group.close()?;
@@ -126,24 +127,25 @@ impl<W: Write + Send> TableWriter<W> {
 fn column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     kind: CellKind,
-    cells: &[&Cell],
+    cells: &[&RowValue],
 ) -> Result<(), ParquetError> {
     let Some(mut column) = group.next_column()? else { return Ok(()) };
-    let levels: Vec<i16> = cells.iter().map(|cell| i16::from(**cell != Cell::Empty)).collect();
+    let levels: Vec<i16> = cells.iter().map(|cell| i16::from(**cell != RowValue::Empty)).collect();
     match kind {
         CellKind::Whole => {
             // the bits of an unsigned number; the schema says so
-            let whole = |cell: &&Cell| if let Cell::Whole(n) = cell { Some(n.cast_signed()) } else { None };
+            let whole = |cell: &&RowValue| if let RowValue::Whole(n) = cell { Some(n.cast_signed()) } else { None };
             let values: Vec<i64> = cells.iter().filter_map(whole).collect();
             column.typed::<Int64Type>().write_batch(&values, Some(&levels), None)?;
         }
         CellKind::Number => {
-            let number = |cell: &&Cell| if let Cell::Number(x) = cell { Some(*x) } else { None };
+            let number = |cell: &&RowValue| if let RowValue::Number(x) = cell { Some(*x) } else { None };
             let values: Vec<f64> = cells.iter().filter_map(number).collect();
             column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
         }
         CellKind::Text => {
-            let text = |cell: &&Cell| if let Cell::Text(text) = cell { Some(text.as_str().into()) } else { None };
+            let text =
+                |cell: &&RowValue| if let RowValue::Text(text) = cell { Some(text.as_str().into()) } else { None };
             let values: Vec<ByteArray> = cells.iter().filter_map(text).collect();
             column.typed::<ByteArrayType>().write_batch(&values, Some(&levels), None)?;
         }
@@ -154,7 +156,7 @@ fn column<W: Write + Send>(
 /// A sweep's table, opened for reading.
 pub struct TableFile<R: ChunkReader + 'static> {
     reader: SerializedFileReader<R>,
-    plan: SweepPlan,
+    study: Study,
 }
 
 impl<R: ChunkReader + 'static> TableFile<R> {
@@ -167,13 +169,13 @@ impl<R: ChunkReader + 'static> TableFile<R> {
         let metadata = reader.metadata().file_metadata().key_value_metadata();
         let entry = metadata.and_then(|entries| entries.iter().find(|entry| entry.key == PLAN));
         let line = entry.and_then(|entry| entry.value.as_deref()).ok_or(TableError::NoSweep(PLAN))?;
-        let plan = SweepPlan::of_line(line).map_err(TableError::Plan)?;
-        Ok(TableFile { reader, plan })
+        let study = Study::of_line(line).map_err(TableError::Study)?;
+        Ok(TableFile { reader, study })
     }
 
-    /// The plan.
-    pub fn plan(&self) -> &SweepPlan {
-        &self.plan
+    /// The study.
+    pub fn study(&self) -> &Study {
+        &self.study
     }
 
     /// The row of this number.
@@ -207,18 +209,18 @@ impl<R: ChunkReader + 'static> TableFile<R> {
     }
 
     fn read(&self, row: Row, number: u64) -> Result<RunRow, TableError> {
-        let columns = self.plan.columns();
+        let columns = self.study.columns();
         let fields = row.into_columns();
         let cell = |(field, column): ((String, Field), &Column)| match (field.1, column.kind) {
-            (Field::Null, _) => Some(Cell::Empty),
-            (Field::ULong(n), CellKind::Whole) => Some(Cell::Whole(n)),
-            (Field::Double(x), CellKind::Number) => Some(Cell::Number(x)),
-            (Field::Str(text), CellKind::Text) => Some(Cell::Text(text)),
+            (Field::Null, _) => Some(RowValue::Empty),
+            (Field::ULong(n), CellKind::Whole) => Some(RowValue::Whole(n)),
+            (Field::Double(x), CellKind::Number) => Some(RowValue::Number(x)),
+            (Field::Str(text), CellKind::Text) => Some(RowValue::Text(text)),
             _ => None,
         };
         let fits = fields.len() == columns.len() && fields.iter().zip(columns).all(|((name, _), c)| *name == c.name);
-        let cells: Option<Vec<Cell>> = fields.into_iter().zip(columns).map(cell).collect();
-        let cells = cells.filter(|cells| fits && cells.first() == Some(&Cell::Whole(number)));
+        let cells: Option<Vec<RowValue>> = fields.into_iter().zip(columns).map(cell).collect();
+        let cells = cells.filter(|cells| fits && cells.first() == Some(&RowValue::Whole(number)));
         cells.map(|cells| RunRow { row: number, cells }).ok_or(TableError::Row(number))
     }
 }

@@ -1,4 +1,4 @@
-//! The values of an axis, as a plan writes them and as a run gets them.
+//! The values of an axis, as a study writes them and as a run gets them.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 /// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Written {
+pub(super) enum WrittenNumber {
     /// A number that a double holds as well as any.
     Real(f64),
     /// A whole number from [`FIRST_INEXACT`] on, written without a point.
@@ -17,34 +17,36 @@ pub(super) enum Written {
 /// 2^53, the first whole number that doubles do not tell from its successor.
 pub(super) const FIRST_INEXACT: u64 = 1 << 53;
 
-impl Written {
+impl WrittenNumber {
     /// The nearest double.
     pub fn real(self) -> f64 {
         match self {
-            Written::Real(x) => x,
-            Written::Whole(n) => n as f64,
+            WrittenNumber::Real(x) => x,
+            WrittenNumber::Whole(n) => n as f64,
         }
     }
 
     /// The whole number from 0 on that was written; `None` for another number, and for one that was rounded.
     pub fn whole(self) -> Option<u64> {
         match self {
-            Written::Real(x) => ((0.0..FIRST_INEXACT as f64).contains(&x) && x.fract() == 0.0).then_some(x as u64),
-            Written::Whole(n) => Some(n),
+            WrittenNumber::Real(x) => {
+                ((0.0..FIRST_INEXACT as f64).contains(&x) && x.fract() == 0.0).then_some(x as u64)
+            }
+            WrittenNumber::Whole(n) => Some(n),
         }
     }
 }
 
-impl Serialize for Written {
+impl Serialize for WrittenNumber {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self {
-            Written::Real(x) => serializer.serialize_f64(*x),
-            Written::Whole(n) => serializer.serialize_u64(*n),
+            WrittenNumber::Real(x) => serializer.serialize_f64(*x),
+            WrittenNumber::Whole(n) => serializer.serialize_u64(*n),
         }
     }
 }
 
-impl<'de> Deserialize<'de> for Written {
+impl<'de> Deserialize<'de> for WrittenNumber {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(AnyNumber)
     }
@@ -53,22 +55,22 @@ impl<'de> Deserialize<'de> for Written {
 struct AnyNumber;
 
 impl Visitor<'_> for AnyNumber {
-    type Value = Written;
+    type Value = WrittenNumber;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a number")
     }
 
-    fn visit_u64<E: Error>(self, n: u64) -> Result<Written, E> {
-        Ok(if n < FIRST_INEXACT { Written::Real(n as f64) } else { Written::Whole(n) })
+    fn visit_u64<E: Error>(self, n: u64) -> Result<WrittenNumber, E> {
+        Ok(if n < FIRST_INEXACT { WrittenNumber::Real(n as f64) } else { WrittenNumber::Whole(n) })
     }
 
-    fn visit_i64<E: Error>(self, n: i64) -> Result<Written, E> {
-        u64::try_from(n).map_or(Ok(Written::Real(n as f64)), |n| self.visit_u64(n))
+    fn visit_i64<E: Error>(self, n: i64) -> Result<WrittenNumber, E> {
+        u64::try_from(n).map_or(Ok(WrittenNumber::Real(n as f64)), |n| self.visit_u64(n))
     }
 
-    fn visit_f64<E: Error>(self, x: f64) -> Result<Written, E> {
-        Ok(Written::Real(x))
+    fn visit_f64<E: Error>(self, x: f64) -> Result<WrittenNumber, E> {
+        Ok(WrittenNumber::Real(x))
     }
 }
 
@@ -78,7 +80,7 @@ pub(super) enum Over {
     /// The whole numbers from the first to the second, without it.
     Range(u64, u64),
     /// These numbers.
-    Values(Vec<Written>),
+    Values(Vec<WrittenNumber>),
     /// This many numbers evenly from the first to the second, both included.
     Steps(f64, f64, u64),
     /// Drawn uniformly from the first to the second, without it.

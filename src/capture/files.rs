@@ -7,7 +7,9 @@ use bevy::app::App;
 use crate::output::{PendingFile, write_file};
 use motion_lab_core::picture::Role;
 use motion_lab_raster::{GifWriter, Image, Raster, RasterError, Size, write_png};
-use motion_lab_sim::capture::{CaptureError, Captured, Film, Form, Paper, Span, Subject, TICK_HUNDREDTHS};
+use motion_lab_sim::capture::{
+    CaptureError, CaptureForm, CaptureSpan, Captured, Film, Paper, Subject, TICK_HUNDREDTHS,
+};
 use motion_lab_sim::run::Log;
 
 /// An image that is none, as a capture's failure.
@@ -27,17 +29,17 @@ fn raster(paper: &Paper) -> Raster {
 ///
 /// # Errors
 /// [`CaptureError`] names what is too large or can't be written. A GIF is refused: [`film`] writes one.
-pub fn write(captured: &Captured, paper: &Paper, form: Form, path: &Path) -> Result<(), CaptureError> {
+pub fn write(captured: &Captured, paper: &Paper, form: CaptureForm, path: &Path) -> Result<(), CaptureError> {
     let svg = captured.svg(paper);
     match form {
-        Form::Svg => Ok(write_file(path, svg.as_bytes())?),
-        Form::Png => {
+        CaptureForm::Svg => Ok(write_file(path, svg.as_bytes())?),
+        CaptureForm::Png => {
             let image = raster(paper).paint(&svg, None).map_err(failed)?;
             let mut pending = PendingFile::create(path)?;
             write_png(&image, &captured.file_notes(), &mut pending).map_err(failed)?;
             Ok(pending.commit()?)
         }
-        Form::Gif => Err(CaptureError::Frozen),
+        CaptureForm::Gif => Err(CaptureError::Frozen),
     }
 }
 
@@ -58,7 +60,7 @@ pub fn paint(captured: &Captured, paper: &Paper) -> Result<Image, CaptureError> 
 pub fn film(
     log: &Log,
     subject: &Subject,
-    span: Span,
+    span: CaptureSpan,
     paper: &Paper,
     path: &Path,
     go_on: impl FnMut(u64, u64) -> bool,
@@ -73,7 +75,7 @@ pub fn film(
 pub fn film_with_robots(
     log: &Log,
     subject: &Subject,
-    span: Span,
+    span: CaptureSpan,
     paper: &Paper,
     path: &Path,
     mut go_on: impl FnMut(u64, u64) -> bool,

@@ -43,17 +43,17 @@ Data goes to standard output, messages to standard error.";
 #[command(version, after_help = EXIT_CODES, after_long_help = EXIT_CODES)]
 pub struct Cli {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<CliCommand>,
     /// Say only what is wrong: no notes on what was written, no progress.
     #[arg(long, short, global = true)]
     quiet: bool,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
-    Record(Box<record::Record>),
+enum CliCommand {
+    Record(Box<record::RecordArgs>),
     Verify(verify::Verify),
-    Replay(replay::Replay),
+    Replay(replay::ReplayArgs),
     Diff(diff::Diff),
     Export(export::Export),
     Stats(stats::StatsArgs),
@@ -67,7 +67,7 @@ enum Command {
     Grade(grade::GradeArgs),
     Sweep(Box<sweep::SweepArgs>),
     #[cfg(feature = "window")]
-    Open(commands::open::Open),
+    Open(commands::open::OpenArgs),
     Describe(describe::Describe),
     Completions(completions::Completions),
     Man(completions::ManPages),
@@ -80,26 +80,26 @@ impl Cli {
             be_quiet();
         }
         match self.command {
-            Some(Command::Record(record)) => record.run(data),
-            Some(Command::Verify(verify)) => verify.run(data),
-            Some(Command::Replay(replay)) => replay.run(data),
-            Some(Command::Diff(diff)) => diff.run(data),
-            Some(Command::Export(export)) => export.run(data),
-            Some(Command::Info(info)) => info.run(data),
-            Some(Command::Stats(stats)) => stats.run(data),
-            Some(Command::Plan(plan)) => plan.run(data),
-            Some(Command::Plot(plot)) => plot.run(data),
-            Some(Command::Query(query)) => query.run(data),
-            Some(Command::Capture(capture)) => capture.run(data),
-            Some(Command::World(world)) => world.run(data),
-            Some(Command::Script(script)) => script.run(data),
-            Some(Command::Sweep(sweep)) => sweep.run(data),
-            Some(Command::Completions(completions)) => completions.run(data),
-            Some(Command::Man(man)) => man.run(data),
-            Some(Command::Grade(grade)) => grade.run(data),
-            Some(Command::Describe(describe)) => describe.run(data),
+            Some(CliCommand::Record(record)) => record.run(data),
+            Some(CliCommand::Verify(verify)) => verify.run(data),
+            Some(CliCommand::Replay(replay)) => replay.run(data),
+            Some(CliCommand::Diff(diff)) => diff.run(data),
+            Some(CliCommand::Export(export)) => export.run(data),
+            Some(CliCommand::Info(info)) => info.run(data),
+            Some(CliCommand::Stats(stats)) => stats.run(data),
+            Some(CliCommand::Plan(plan)) => plan.run(data),
+            Some(CliCommand::Plot(plot)) => plot.run(data),
+            Some(CliCommand::Query(query)) => query.run(data),
+            Some(CliCommand::Capture(capture)) => capture.run(data),
+            Some(CliCommand::World(world)) => world.run(data),
+            Some(CliCommand::Script(script)) => script.run(data),
+            Some(CliCommand::Sweep(sweep)) => sweep.run(data),
+            Some(CliCommand::Completions(completions)) => completions.run(data),
+            Some(CliCommand::Man(man)) => man.run(data),
+            Some(CliCommand::Grade(grade)) => grade.run(data),
+            Some(CliCommand::Describe(describe)) => describe.run(data),
             #[cfg(feature = "window")]
-            Some(Command::Open(open)) => open.run(),
+            Some(CliCommand::Open(open)) => open.run(),
             None => bare::bare(data),
         }
     }

@@ -77,14 +77,14 @@ struct AssignmentText {
 /// The version alone, for files of other versions.
 #[derive(Deserialize)]
 #[serde(rename = "Assignment")]
-struct Version {
+struct AssignmentVersion {
     version: u64,
 }
 
 /// The items as raw text, for their lines in the file.
 #[derive(Deserialize)]
 #[serde(rename = "Assignment")]
-struct Places<'a> {
+struct RawAssignment<'a> {
     #[serde(borrow, default)]
     version: Option<&'a RawValue>,
     #[serde(borrow, default)]
@@ -115,7 +115,7 @@ impl AssignmentFile {
         // the version comes first: the rest of another version's file may look different
         let version = match &read {
             Ok(read) => read.version,
-            Err(_) => ron::from_str(text).map_or(1, |Version { version }| version),
+            Err(_) => ron::from_str(text).map_or(1, |AssignmentVersion { version }| version),
         };
         let error =
             |line, item, problem| AssignmentError { file: file.to_owned(), line, item, problem: Box::new(problem) };
@@ -250,8 +250,8 @@ fn options() -> ron::Options {
 
 /// The texts of the items of a file, with the blanks and comments around them; none of a text that is not RON.
 fn items(text: &str) -> impl Iterator<Item = (&'static str, &RawValue)> {
-    let places: Option<Places> = options().from_str(text).ok();
-    let items = places.map(|Places { version, world, robot, start, goal, stay, limits, points, seeds }| {
+    let places: Option<RawAssignment> = options().from_str(text).ok();
+    let items = places.map(|RawAssignment { version, world, robot, start, goal, stay, limits, points, seeds }| {
         [
             ("version", version),
             ("world", world),

@@ -16,7 +16,7 @@ const CREEP: f64 = 1e-6;
 /// The result of an attempt.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Verdict {
+pub enum AttemptOutcome {
     /// At the goal within every limit.
     Passed,
     /// Not at the goal in time.
@@ -29,14 +29,14 @@ pub enum Verdict {
     Reversals,
 }
 
-impl fmt::Display for Verdict {
+impl fmt::Display for AttemptOutcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(match self {
-            Verdict::Passed => "passed",
-            Verdict::Missed => "missed the goal",
-            Verdict::Left => "left the goal",
-            Verdict::Contacts => "too many contacts",
-            Verdict::Reversals => "too many reversals",
+            AttemptOutcome::Passed => "passed",
+            AttemptOutcome::Missed => "missed the goal",
+            AttemptOutcome::Left => "left the goal",
+            AttemptOutcome::Contacts => "too many contacts",
+            AttemptOutcome::Reversals => "too many reversals",
         })
     }
 }
@@ -48,7 +48,7 @@ pub struct Attempt {
     /// The seed.
     pub seed: Seed,
     /// The result.
-    pub verdict: Verdict,
+    pub verdict: AttemptOutcome,
     /// The deciding tick: the one at which the goal was reached or a limit exceeded, else the last.
     pub tick: u64,
     /// The contact episodes up to then.
@@ -96,8 +96,8 @@ impl GoalDistance {
 
 /// What an attempt has come to at a tick.
 #[derive(Clone)]
-struct Reached {
-    verdict: Verdict,
+struct AttemptState {
+    verdict: AttemptOutcome,
     tick: u64,
     contacts: u32,
     reversals: u32,
@@ -107,7 +107,7 @@ struct Reached {
 impl Attempt {
     /// Whether the robot was at the goal within every limit.
     pub fn passed(&self) -> bool {
-        self.verdict == Verdict::Passed
+        self.verdict == AttemptOutcome::Passed
     }
 
     /// Runs the script at a seed until it is decided. Calls `on_tick` after each tick.
@@ -122,7 +122,7 @@ impl Attempt {
         let mut run = assignment.begin(seed, script)?;
         let mut before = run.frame().robots[robot].configuration.clone();
         let (mut reversals, mut ahead, mut there, mut was_there) = (0_u32, None, 0_u64, false);
-        let mut broken: Option<Reached> = None;
+        let mut broken: Option<AttemptState> = None;
         loop {
             let frame = run.step();
             let (tick, state) = (frame.tick, &frame.robots[robot]);
@@ -136,14 +136,14 @@ impl Attempt {
             before.clone_from(&state.configuration);
             let (contacts, configuration) = (state.contacts, &before);
             let reached =
-                |verdict| Reached { verdict, tick, contacts, reversals, configuration: configuration.clone() };
+                |verdict| AttemptState { verdict, tick, contacts, reversals, configuration: configuration.clone() };
             let kept = [
                 limits.contacts.is_none_or(|most| contacts <= most),
                 limits.reversals.is_none_or(|most| reversals <= most),
             ];
             let exceeded = match kept {
-                [false, _] => Some(Verdict::Contacts),
-                [_, false] => Some(Verdict::Reversals),
+                [false, _] => Some(AttemptOutcome::Contacts),
+                [_, false] => Some(AttemptOutcome::Reversals),
                 _ => None,
             };
             if let (None, Some(verdict)) = (&broken, exceeded) {
@@ -157,11 +157,11 @@ impl Attempt {
             }
             let met = Met { goal: is_there, contacts: is_there && kept[0], reversals: is_there && kept[1] };
             let verdict = match (is_there, was_there) {
-                (true, _) => Verdict::Passed,
-                (false, true) => Verdict::Left,
-                (false, false) => Verdict::Missed,
+                (true, _) => AttemptOutcome::Passed,
+                (false, true) => AttemptOutcome::Left,
+                (false, false) => AttemptOutcome::Missed,
             };
-            let Reached { verdict, tick, contacts, reversals, configuration } =
+            let AttemptState { verdict, tick, contacts, reversals, configuration } =
                 broken.unwrap_or_else(|| reached(verdict));
             let difference = difference(about, &goal.at, &configuration);
             let distance = difference.map(|difference| GoalDistance::of(about, &difference));

@@ -41,7 +41,7 @@ mod seeds;
 mod stay;
 
 pub use assignment::{Assignment, AssignmentFile, Goal, Limits};
-pub use attempt::{Attempt, GoalDistance, Met, Verdict};
+pub use attempt::{Attempt, AttemptOutcome, GoalDistance, Met};
 pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 pub use points::Points;
 pub use score::{Criterion, Score};

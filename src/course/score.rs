@@ -56,12 +56,12 @@ impl Score {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::course::{Met, Verdict};
+    use crate::course::{AttemptOutcome, Met};
     use motion_lab_core::configuration::Coordinates;
     use motion_lab_core::random::Seed;
 
     fn attempt(goal: bool, contacts: bool) -> Attempt {
-        let verdict = if goal && contacts { Verdict::Passed } else { Verdict::Contacts };
+        let verdict = if goal && contacts { AttemptOutcome::Passed } else { AttemptOutcome::Contacts };
         let met = Met { goal, contacts, reversals: false };
         let configuration = Coordinates::new();
         Attempt { seed: Seed(1), verdict, tick: 1, contacts: 0, reversals: 0, configuration, distance: None, met }

@@ -39,14 +39,14 @@ impl<'de> Visitor<'de> for ListOrRanges {
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<Seeds, E> {
-        ranges(text).map(Seeds).map_err(|part| E::custom(Refused(part)))
+        ranges(text).map(Seeds).map_err(|part| E::custom(BadRange(part)))
     }
 }
 
 /// A part of ranges that is none.
-struct Refused<'a>(&'a str);
+struct BadRange<'a>(&'a str);
 
-impl fmt::Display for Refused<'_> {
+impl fmt::Display for BadRange<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{:?} is no seed and no range of seeds; write \"0..100\" for the seeds 0 to 99", self.0)
     }

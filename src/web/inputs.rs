@@ -20,13 +20,13 @@ use base64::prelude::{BASE64_URL_SAFE_NO_PAD, Engine};
 use motion_lab_sim::run::{Event, Quantized, RobotInput};
 
 /// Largest length of a robot's name, bytes: every input has it again once it is read.
-const MOST_NAME: u64 = 200;
+const MAX_NAME: u64 = 200;
 
 /// The inputs as text; `None` where their ticks go back, which no script that runs has, or a robot's name is too long.
 pub fn encode(events: &[Event]) -> Option<String> {
     let mut names: Vec<&str> = Vec::new();
     for event in events {
-        if event.robot.len() as u64 > MOST_NAME {
+        if event.robot.len() as u64 > MAX_NAME {
             return None;
         }
         if !names.contains(&event.robot.as_str()) {
@@ -111,7 +111,7 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn events(&mut self) -> Option<Vec<Event>> {
         let names: Vec<&str> = self.list(|rest| {
-            let length = rest.number().filter(|length| *length <= MOST_NAME)?;
+            let length = rest.number().filter(|length| *length <= MAX_NAME)?;
             std::str::from_utf8(rest.take(length)?).ok()
         })?;
         let (mut tick, mut last, mut events) = (0_u64, vec![Vec::new(); names.len()], Vec::new());

@@ -20,7 +20,7 @@ pub const LINK_VERSION: u32 = 1;
 pub const LINK_VERSION_WITH_INPUTS: u32 = 2;
 
 /// Largest length of a query that servers take, bytes. A longer one stands behind a `#`: what is there is never sent.
-const MOST_QUERY: usize = 8000;
+const MAX_QUERY: usize = 8000;
 
 /// Largest length of a link, bytes.
 pub const MAX_LINK: usize = 32_000;
@@ -33,7 +33,7 @@ const FIELDS: [&str; 12] =
     ["v", "seed", "world", "widget", "lesson", "tab", "q", "theme", "script", "inputs", "tick", "digest"];
 
 /// Most coordinates of a configuration.
-const MOST_COORDINATES: usize = 16;
+const MAX_COORDINATES: usize = 16;
 
 /// Largest tick of a link: an hour. Opening a link simulates its run up to that tick.
 pub const MAX_LINK_TICK: u64 = 72_000;
@@ -104,7 +104,7 @@ pub enum LinkError {
     #[error("lesson: no lesson has the id {}", cited(.0))]
     Lesson(String),
     /// Not the coordinates of a configuration.
-    #[error("q: it must be up to {MOST_COORDINATES} numbers, joined by commas, not {}", cited(.0))]
+    #[error("q: it must be up to {MAX_COORDINATES} numbers, joined by commas, not {}", cited(.0))]
     Coordinates(String),
     /// A digest that is not 32 hexadecimal digits.
     #[error("digest: it must be 32 hexadecimal digits, not {}", cited(.0))]
@@ -113,7 +113,7 @@ pub enum LinkError {
     #[error("{0}: not valid UTF-8")]
     Text(&'static str),
     /// A script that is refused.
-    #[error("script: {}", retold(.0))]
+    #[error("script: {}", requoted(.0))]
     Script(#[from] ScriptError),
     /// Inputs that make no sense from this byte on.
     #[error("inputs: they make no sense at byte {0}")]
@@ -130,26 +130,26 @@ pub enum LinkError {
 }
 
 /// Largest number of characters of a link that its refusal repeats: too few for a sentence of the link's maker.
-const MOST_CITED: usize = 12;
+const MAX_CITED: usize = 12;
 
 /// Largest number of characters of what is said about a script.
-const MOST_OF_SCRIPT: usize = 100;
+const MAX_OF_SCRIPT: usize = 100;
 
 /// Words of somebody else, so that nobody takes them for the lab's: between quotes and cut short.
 pub fn cited(text: &str) -> String {
-    format!("{:?}", cut(text, MOST_CITED))
+    format!("{:?}", cut(text, MAX_CITED))
 }
 
 /// What is said about the link's run, without long names that the link gives: those are between quotes or backticks,
 /// where a quote within is escaped.
-pub fn retold(error: &impl ToString) -> String {
+pub fn requoted(error: &impl ToString) -> String {
     let (mut said, mut name) = (String::new(), None::<(char, String)>);
     let text = error.to_string();
     let mut letters = text.chars();
     while let Some(letter) = letters.next() {
         match &mut name {
             Some((mark, inner)) if letter == *mark => {
-                said.extend([cut(inner, MOST_CITED), letter.to_string()]);
+                said.extend([cut(inner, MAX_CITED), letter.to_string()]);
                 name = None;
             }
             Some((_, inner)) => {
@@ -163,8 +163,8 @@ pub fn retold(error: &impl ToString) -> String {
         }
     }
     // a name without an end
-    said.extend(name.map(|(_, inner)| cut(&inner, MOST_CITED)));
-    cut(&said, MOST_OF_SCRIPT)
+    said.extend(name.map(|(_, inner)| cut(&inner, MAX_CITED)));
+    cut(&said, MAX_OF_SCRIPT)
 }
 
 /// The text up to a number of characters; dots stand for the rest.
@@ -266,8 +266,8 @@ impl Link {
         }
         if let Some(text) = fields.remove("q") {
             let numbers = text.split(',').map(|number| number.parse().ok().filter(|x: &f64| x.is_finite()));
-            let numbers: Option<Vec<f64>> = numbers.take(MOST_COORDINATES + 1).collect();
-            let numbers = numbers.filter(|all| all.len() <= MOST_COORDINATES);
+            let numbers: Option<Vec<f64>> = numbers.take(MAX_COORDINATES + 1).collect();
+            let numbers = numbers.filter(|all| all.len() <= MAX_COORDINATES);
             link.q = numbers.ok_or(LinkError::Coordinates(text))?;
         }
         if let Some(text) = fields.remove("theme") {
@@ -315,7 +315,7 @@ impl Link {
     /// [`LinkError::TooLong`].
     pub fn address(&self, page: &str) -> Result<String, LinkError> {
         let query = self.query()?;
-        let mark = if query.len() > MOST_QUERY { '#' } else { '?' };
+        let mark = if query.len() > MAX_QUERY { '#' } else { '?' };
         Ok(format!("{page}{mark}{query}"))
     }
 

@@ -9,7 +9,7 @@ pub struct Mirrored {
     /// Its number, a string because it has 64 bits.
     pub id: String,
     /// The kind of control.
-    pub kind: Kind,
+    pub kind: ControlKind,
     /// Its accessible name.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub name: String,
@@ -42,7 +42,7 @@ pub struct Mirrored {
 /// The controls that a page knows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Kind {
+pub enum ControlKind {
     /// Words.
     #[default]
     Text,
@@ -84,32 +84,32 @@ pub fn mirror(update: &TreeUpdate) -> Vec<Mirrored> {
 
 fn mirrored(id: NodeId, node: &Node, labels: String, focus: bool) -> Option<Mirrored> {
     let kind = match node.role() {
-        Role::Image => Kind::Image,
-        Role::Label | Role::ProgressIndicator => Kind::Text,
-        Role::Button | Role::Link | Role::ColorWell => Kind::Button,
-        Role::ComboBox => Kind::Combo,
-        Role::CheckBox | Role::RadioButton => Kind::Check,
+        Role::Image => ControlKind::Image,
+        Role::Label | Role::ProgressIndicator => ControlKind::Text,
+        Role::Button | Role::Link | Role::ColorWell => ControlKind::Button,
+        Role::ComboBox => ControlKind::Combo,
+        Role::CheckBox | Role::RadioButton => ControlKind::Check,
         // a number that can't be set is a handle, which takes the arrow keys
-        Role::Slider | Role::SpinButton if !node.supports_action(Action::SetValue) => Kind::Handle,
-        Role::Slider => Kind::Slider,
-        Role::SpinButton => Kind::Number,
-        Role::TextInput | Role::MultilineTextInput => Kind::Field,
-        Role::Unknown if node.supports_action(Action::Focus) => Kind::Handle,
+        Role::Slider | Role::SpinButton if !node.supports_action(Action::SetValue) => ControlKind::Handle,
+        Role::Slider => ControlKind::Slider,
+        Role::SpinButton => ControlKind::Number,
+        Role::TextInput | Role::MultilineTextInput => ControlKind::Field,
+        Role::Unknown if node.supports_action(Action::Focus) => ControlKind::Handle,
         _ => return None,
     };
-    let own = node.label().or(node.value().filter(|_| kind == Kind::Text));
+    let own = node.label().or(node.value().filter(|_| kind == ControlKind::Text));
     let name = own.map_or(labels, str::to_owned);
     let number = node.numeric_value();
     let value = match kind {
-        Kind::Text => None,
-        Kind::Slider | Kind::Number => number.map(|n| n.to_string()).or(node.value().map(str::to_owned)),
+        ControlKind::Text => None,
+        ControlKind::Slider | ControlKind::Number => number.map(|n| n.to_string()).or(node.value().map(str::to_owned)),
         _ => node.value().map(str::to_owned).or(number.map(|n| n.to_string())),
     };
     if name.is_empty() && value.is_none() {
         return None;
     }
     let bound = |x: Option<f64>, else_: f64| x.filter(|x| x.is_finite()).unwrap_or(else_);
-    let range = (kind == Kind::Slider || kind == Kind::Number).then(|| {
+    let range = (kind == ControlKind::Slider || kind == ControlKind::Number).then(|| {
         [
             bound(node.min_numeric_value(), -1e9),
             bound(node.max_numeric_value(), 1e9),
@@ -200,17 +200,17 @@ mod tests {
             focus: NodeId::from(2),
         };
         let found = mirror(&update);
-        let named: Vec<(&str, Kind)> = found.iter().map(|m| (m.name.as_str(), m.kind)).collect();
+        let named: Vec<(&str, ControlKind)> = found.iter().map(|m| (m.name.as_str(), m.kind)).collect();
         assert_eq!(
             named,
             [
-                ("Dashboard", Kind::Text),
-                ("Play", Kind::Button),
-                ("speed", Kind::Slider),
-                ("Dashboard", Kind::Field),
-                ("elbow", Kind::Handle),
-                ("world", Kind::Combo),
-                ("the configuration", Kind::Image),
+                ("Dashboard", ControlKind::Text),
+                ("Play", ControlKind::Button),
+                ("speed", ControlKind::Slider),
+                ("Dashboard", ControlKind::Field),
+                ("elbow", ControlKind::Handle),
+                ("world", ControlKind::Combo),
+                ("the configuration", ControlKind::Image),
             ]
         );
         assert!(found[1].focus && !found[0].focus);

@@ -75,7 +75,7 @@ enum PartsError {
 
 /// The result of simulating a log again.
 #[derive(Debug, Serialize)]
-struct Verdict {
+struct RunCheck {
     /// Whether every frame came out equal to the last bit, and the file is whole.
     verified: bool,
     /// The number of ticks in the log.
@@ -147,7 +147,7 @@ pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
 pub fn verify_log(bytes: &[u8]) -> Result<String, JsError> {
     let log = Log::read_mcap(bytes).map_err(error)?.log;
     let Verification { recorded, digest, difference, .. } = verify(&log, |_| {}).map_err(error)?;
-    let verdict = Verdict {
+    let verdict = RunCheck {
         verified: difference.is_none(),
         ticks: recorded,
         diverging_tick: difference.as_ref().map(Difference::first_tick),

@@ -20,10 +20,10 @@ const AT_ONCE: u64 = 20_000;
 
 /// The work under way, if any.
 #[derive(Resource, Default)]
-pub struct Background(Option<Work>);
+pub struct Background(Option<BackgroundWork>);
 
 /// A piece of work, and whether the run played when it began.
-struct Work {
+struct BackgroundWork {
     job: Job,
     playback: Playback,
 }
@@ -214,8 +214,9 @@ pub fn seek_in_background(world: &mut World, command: &TransportCommand) -> bool
     }
     // a handle that is held asks for its tick in every frame; other work than a seek gives way aloud
     match &world.resource::<Background>().0 {
-        Some(Work { job: Job::Seek { to: same, .. }, playback: then }) if *same == to && *then == playback => {}
-        Some(Work { job: Job::Seek { .. }, .. }) => begin(world, Job::Seek { from, to }, playback),
+        Some(BackgroundWork { job: Job::Seek { to: same, .. }, playback: then })
+            if *same == to && *then == playback => {}
+        Some(BackgroundWork { job: Job::Seek { .. }, .. }) => begin(world, Job::Seek { from, to }, playback),
         _ => {
             stop(world);
             begin(world, Job::Seek { from, to }, playback);
@@ -257,7 +258,7 @@ fn run_or_defer(
 fn begin(world: &mut World, job: Job, playback: Playback) {
     world.resource_mut::<Transport>().playback = Playback::Paused;
     world.resource_mut::<Interface>().0.working = Some(Working { text: job.words(world), stop: false });
-    world.resource_mut::<Background>().0 = Some(Work { job, playback });
+    world.resource_mut::<Background>().0 = Some(BackgroundWork { job, playback });
 }
 
 impl Background {

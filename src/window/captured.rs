@@ -1,8 +1,8 @@
 //! The widget in front as a figure, for captures.
 
-use super::runs::ShownRun;
+use super::run_files::ShownRun;
 use crate::window::ui::{UiState, Widget};
-use motion_lab_sim::capture::{CaptureError, Captured, Form, Subject, anatomy, at_tick_with_robots};
+use motion_lab_sim::capture::{CaptureError, CaptureForm, Captured, Subject, anatomy, at_tick_with_robots};
 
 /// The widget in front as a figure of this width, pixels. The dashboard shows the run at `tick`; the other widgets do
 /// not depend on the run.
@@ -10,7 +10,7 @@ use motion_lab_sim::capture::{CaptureError, Captured, Form, Subject, anatomy, at
 /// # Errors
 /// [`CaptureError`], when the run or the scene can't be drawn.
 pub fn captured(state: &UiState, run: ShownRun, tick: u64, width_px: f64) -> Result<Captured, CaptureError> {
-    match subject(state, Form::Svg)? {
+    match subject(state, CaptureForm::Svg)? {
         None => scene(state, width_px),
         Some(subject) => {
             let kinds = run.kinds.clone();
@@ -20,8 +20,8 @@ pub fn captured(state: &UiState, run: ShownRun, tick: u64, width_px: f64) -> Res
 }
 
 /// The subject of a capture of the widget in front; `None` where the figure does not depend on the run.
-pub fn subject(state: &UiState, form: Form) -> Result<Option<Subject>, CaptureError> {
-    let moves = form == Form::Gif;
+pub fn subject(state: &UiState, form: CaptureForm) -> Result<Option<Subject>, CaptureError> {
+    let moves = form == CaptureForm::Gif;
     let (names, scan) = (state.settings.labels, state.settings.scan);
     Ok(match state.widget {
         Widget::Dashboard => Some(Subject::Dashboard { names, scan }),

@@ -1,6 +1,6 @@
 //! `SessionError`, why a run could not be started, saved, opened or pictured.
 
-use motion_lab_sim::atlas::Refusal;
+use motion_lab_sim::atlas::TeleportRefusal;
 use motion_lab_sim::capture::CaptureError;
 use motion_lab_sim::recording::RunError;
 use motion_lab_sim::run::LogError;
@@ -36,7 +36,7 @@ pub enum SessionError {
     NoRobot(String),
     /// A robot that has no room where it was to be put.
     #[error("{0}")]
-    Refused(Refusal),
+    Refused(TeleportRefusal),
     /// A file that is too large to open.
     #[error("{found} bytes: the window opens at most {most}")]
     TooLarge {

@@ -2,7 +2,7 @@
 
 mod background;
 mod captured;
-mod crowds;
+mod crowd_views;
 #[cfg(feature = "window")]
 pub mod desktop;
 mod error;
@@ -10,7 +10,7 @@ mod lab_systems;
 mod modifiers;
 mod pace;
 mod put_robot;
-mod runs;
+mod run_files;
 mod session;
 // two attributes, because the lints recognise only a bare `cfg(test)`
 #[cfg(test)]
@@ -40,7 +40,7 @@ pub(crate) mod for_page {
     pub(crate) use super::captured::{captured, subject};
     pub(crate) use super::error::SessionError;
     pub(crate) use super::pace::limit;
-    pub(crate) use super::runs::{open_log, open_path_text, open_world_text, path_text, save, shown_run};
+    pub(crate) use super::run_files::{open_log, open_path_text, open_world_text, path_text, save, shown_run};
     pub(crate) use super::session::{Shown, new_run};
     pub(crate) use super::ui::Interface;
     pub(crate) use super::windowed_app;
@@ -52,14 +52,14 @@ pub fn is_busy(world: &World) -> bool {
 }
 
 /// Least width and height of the window, points.
-const LEAST: f32 = 360.0;
+const MIN_WINDOW: f32 = 360.0;
 
 /// The lab in a window, with the tour of the three worlds from the book's seed. A run already under way is kept.
 pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> App {
     let window = Window {
         title: "Motion Lab".into(),
         resolution: WindowResolution::new(1280, 800),
-        resize_constraints: WindowResizeConstraints { min_width: LEAST, min_height: LEAST, ..default() },
+        resize_constraints: WindowResizeConstraints { min_width: MIN_WINDOW, min_height: MIN_WINDOW, ..default() },
         fit_canvas_to_parent: true,
         // the page decides which keys and touches are its own
         prevent_default_event_handling: false,

@@ -19,7 +19,7 @@ const TICKS_BUDGET: Duration = Duration::from_millis(30);
 const MANY: usize = 100;
 
 /// Longest time that a frame lets pass, as Bevy has it.
-const MOST_DELTA: Duration = Duration::from_millis(250);
+const MAX_DELTA: Duration = Duration::from_millis(250);
 
 /// Length of the measurement, seconds of the clock.
 const WINDOW: f64 = 1.5;
@@ -64,10 +64,10 @@ impl Pace {
 
     /// Longest time that the next frame may let pass, so that the ticks of a run of many robots leave room for drawing.
     /// The run then falls behind its speed, and the window says so.
-    pub fn most_delta(&self, robots: usize, speed: f64) -> Duration {
-        let Some(tick) = self.tick_seconds.filter(|_| robots > MANY && speed.is_finite()) else { return MOST_DELTA };
+    pub fn max_delta(&self, robots: usize, speed: f64) -> Duration {
+        let Some(tick) = self.tick_seconds.filter(|_| robots > MANY && speed.is_finite()) else { return MAX_DELTA };
         let ticks = (TICKS_BUDGET.as_secs_f64() / tick).floor().clamp(1.0, 1e6);
-        MOST_DELTA.min(Duration::try_from_secs_f64(ticks * DT / speed).unwrap_or(MOST_DELTA))
+        MAX_DELTA.min(Duration::try_from_secs_f64(ticks * DT / speed).unwrap_or(MAX_DELTA))
     }
 
     /// Simulated seconds per second of the clock; `None` before enough is known.
@@ -112,7 +112,7 @@ pub fn play_flat_out(world: &mut World) {
 /// Lets no more time pass in this frame than its ticks may take.
 pub fn limit(world: &mut World) {
     let robots = world.resource::<LatestFrame>().0.robots.len();
-    let most = world.resource::<Pace>().most_delta(robots, world.resource::<Transport>().speed);
+    let most = world.resource::<Pace>().max_delta(robots, world.resource::<Transport>().speed);
     world.resource_mut::<Time<Virtual>>().set_max_delta(most);
 }
 
@@ -173,7 +173,7 @@ mod tests {
     #[test]
     fn the_ticks_of_many_robots_leave_room_for_drawing() {
         let pace = |seconds| Pace { tick_seconds: Some(seconds), ..Pace::default() };
-        let millis = |pace: &Pace, robots, speed| pace.most_delta(robots, speed).as_millis();
+        let millis = |pace: &Pace, robots, speed| pace.max_delta(robots, speed).as_millis();
         // a tick of 45 ms: one a frame, which is 50 ms of the clock at normal speed and 12.5 ms at four times it
         assert_eq!(millis(&pace(0.045), 10_000, 1.0), 50);
         assert_eq!(millis(&pace(0.045), 10_000, 4.0), 12);

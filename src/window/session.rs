@@ -9,7 +9,7 @@ use bevy::prelude::*;
 use bevy::time::TimeSystems;
 
 use super::background::{self, Background};
-use super::crowds::{Crowds, crowd, update_crowds};
+use super::crowd_views::{CrowdViews, crowd, update_crowds};
 use super::error::SessionError;
 use super::lab_systems::LabSystems;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
@@ -31,7 +31,7 @@ use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 use pending::{Said, scene_of};
 
 /// Farthest that a part moves from tick to tick, metres. A part that moved farther was put there.
-const LEAP: f64 = 0.5;
+const MAX_DRIVEN: f64 = 0.5;
 
 /// The simulation with all that a view needs of it. Drawing, windows and dialogs are left to other plugins.
 pub struct SessionPlugin;
@@ -41,7 +41,7 @@ impl Plugin for SessionPlugin {
         app.add_plugins((SimulationPlugin, HistoryPlugin))
             .init_resource::<Interface>()
             .init_resource::<Worlds>()
-            .init_resource::<Crowds>()
+            .init_resource::<CrowdViews>()
             .init_resource::<Background>()
             .init_resource::<Pace>()
             .insert_resource(Shown(Dashboard {
@@ -209,7 +209,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         in_full,
         coordinates: robot.coordinates.clone(),
         target,
-        footprint: blend(&robot.previous_footprint, &robot.footprint, between, LEAP),
+        footprint: blend(&robot.previous_footprint, &robot.footprint, between, MAX_DRIVEN),
         // a disc does not show which way it faces; its third coordinate does
         heading: pose.filter(|_| robot.footprint.parts().len() == 1 && !is_arm).map(|p| p.theta),
         gait: robot.gait(),

@@ -1,39 +1,12 @@
 //! The whole program: every command and every exit code, by running it.
 
-mod capture;
-mod certificates;
-mod columns;
-mod diff;
-mod digests;
-mod driving;
-mod export;
-mod files;
-mod format_list;
-mod grade;
-mod gradebook;
-mod habits;
-mod import;
-mod kinds;
-mod library_exports;
-mod manual;
-mod messages;
-mod plan;
-#[cfg(target_os = "linux")]
-mod progress;
-mod queries;
-mod record;
-mod replay;
-mod rerun;
-mod scripts;
-mod shells;
-mod sizes;
-mod stats;
-mod stills;
+mod exports;
+mod grades;
+mod program;
+mod questions;
+mod runs;
 mod sweep;
-mod verify;
-mod viewer;
-mod viewer_files;
-mod world;
+mod worlds;
 
 use motion_lab::run::Log;
 use std::io::Write;

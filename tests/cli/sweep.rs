@@ -27,13 +27,14 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-fn folder_with(plan: &str) -> tempfile::TempDir {
+fn folder_with(study: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("plan.ron"), plan).unwrap();
+    fs::write(folder.path().join("plan.ron"), study).unwrap();
     folder
 }
 
-/// A folder with a plan of four runs of a car that drives for two seconds: the second meets a wall, the third can't be.
+/// A folder with a study of four runs of a car that drives for two seconds: the second meets a wall, the third can't
+/// be.
 fn folder_with_a_drive() -> tempfile::TempDir {
     let folder = folder_with(
         "Sweep(version: 1, worlds: [\"lot\"], script: \"drive.ron\", ticks: 100,
@@ -119,7 +120,7 @@ fn a_row_is_the_run_that_record_records_and_reproduce_repeats() {
             assert_eq!(found.parse::<f64>().unwrap(), expected.parse::<f64>().unwrap(), "{robot} {column}");
         }
     }
-    // a part holds its plan, too; a row of another digest is told
+    // a part holds its study, too; a row of another digest is told
     let part = at.join("parts/part-1-of-1.sweep");
     run_in(at, &["sweep", "reproduce", part.to_str().unwrap(), "--row", "42", "-o", "again.mcap"]).done();
     assert!(fs::read(at.join("again.mcap")).unwrap() == fs::read(at.join("42.mcap")).unwrap());
@@ -140,7 +141,7 @@ fn a_row_is_the_run_that_record_records_and_reproduce_repeats() {
     let beyond = run_in(at, &["sweep", "reproduce", "all.parquet", "--row", "60"]).failed(3);
     assert!(beyond.contains("there is no row 60: it has 60"), "{beyond}");
     let csv = run_in(at, &["sweep", "reproduce", "all.csv", "--row", "1"]).failed(3);
-    assert!(csv.contains("does not hold its plan"), "{csv}");
+    assert!(csv.contains("does not hold its study"), "{csv}");
 }
 
 #[test]
@@ -194,10 +195,10 @@ fn a_merge_proves_that_every_row_is_there_once_and_of_one_plan() {
     assert!(missing.err.contains("30 of 60 rows are missing") && !at.join("all.csv").exists());
     fs::write(at.join("plan.ron"), PLAN.replace("ticks: 20", "ticks: 21")).unwrap();
     let other = run_in(at, &["sweep", "plan.ron", "--shard", "1/4", "-o", "parts"]).failed(3);
-    assert!(other.contains("it is of another plan"), "{other}");
+    assert!(other.contains("it is of another study"), "{other}");
     run_in(at, &["sweep", "plan.ron", "--shard", "2/4", "-o", "parts"]).done();
     let mixed = run_in(at, &["sweep", "merge", "parts"]).failed(3);
-    assert!(mixed.contains("part-2-of-4.sweep: it is of another plan"), "{mixed}");
+    assert!(mixed.contains("part-2-of-4.sweep: it is of another study"), "{mixed}");
     fs::remove_file(at.join("parts/part-2-of-4.sweep")).unwrap();
     fs::write(at.join("plan.ron"), PLAN).unwrap();
     run_in(at, &["sweep", "plan.ron", "-o", "whole"]).done();
@@ -250,7 +251,7 @@ fn the_same_command_goes_on_after_a_crash_and_skips_what_is_finished() {
     fs::write(at.join("plan.ron"), PLAN.replace("ticks: 20", "ticks: 21")).unwrap();
     fs::write(at.join("parts/part-1-of-2.journal"), format!("{}\n", lines[..4].join("\n"))).unwrap();
     let other = run_in(at, &["sweep", "plan.ron", "-o", "parts", "--shard", "1/2"]).failed(3);
-    assert!(other.contains("part-1-of-2.journal: it is of another plan"), "{other}");
+    assert!(other.contains("part-1-of-2.journal: it is of another study"), "{other}");
 }
 
 #[cfg(unix)]

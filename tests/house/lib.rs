@@ -2,6 +2,7 @@
 #![cfg(test)]
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used)]
 
+mod names;
 mod rooms;
 mod sources;
 

@@ -3,7 +3,7 @@
 use motion_lab::configuration::RobotKind;
 use motion_lab::prelude::*;
 use motion_lab::recording::{
-    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Refusal, Run, RunError, Submission, Verdict,
+    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, AttemptOutcome, Refusal, Run, RunError, Submission,
 };
 use motion_lab::run::{Event, Log, RobotInput, Script};
 use motion_lab::simulation::{App, RobotPlugin, SpawnError};
@@ -39,7 +39,7 @@ fn driving(speeds: &[(u64, i16)]) -> Script {
     Script::new(events.collect(), vec![])
 }
 
-fn verdicts(assignment: &Assignment, script: Script) -> Vec<Verdict> {
+fn verdicts(assignment: &Assignment, script: Script) -> Vec<AttemptOutcome> {
     let grade = assignment.grade(&Submission::Script(script));
     assert_eq!(grade.refusal, None);
     grade.attempts.iter().map(|attempt| attempt.verdict).collect()
@@ -56,10 +56,10 @@ fn a_kind_of_ones_own_is_graded_by_its_own_description() {
     assert!(grade.passed(), "{grade:?}");
     // at a metre a second it comes within 0.1 m of the goal after 0.9 s
     assert!(grade.attempts.iter().all(|a| (18..=19).contains(&a.tick) && a.configuration.len() == 5), "{grade:?}");
-    assert_eq!(verdicts(&assignment, driving(&[(1, -16)])), [Verdict::Missed; 2]);
+    assert_eq!(verdicts(&assignment, driving(&[(1, -16)])), [AttemptOutcome::Missed; 2]);
     // there and back and there: one time too many it changes between forward and backward
-    assert_eq!(verdicts(&assignment, driving(&[(1, 64), (5, -64), (9, 64)])), [Verdict::Reversals; 2]);
-    assert_eq!(verdicts(&assignment, driving(&[(1, -64), (5, 128)])), [Verdict::Passed; 2], "once is allowed");
+    assert_eq!(verdicts(&assignment, driving(&[(1, 64), (5, -64), (9, 64)])), [AttemptOutcome::Reversals; 2]);
+    assert_eq!(verdicts(&assignment, driving(&[(1, -64), (5, 128)])), [AttemptOutcome::Passed; 2], "once is allowed");
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn only_a_kind_that_is_said_to_drive_has_reversals() {
     let text = EXAM.replace(", reversals: 1", "");
     let assignment = parsed(&text).in_world_with_robots(lot(ABOUT.name), undescribed).unwrap();
     assert_eq!(assignment.about(), None);
-    assert_eq!(verdicts(&assignment, driving(&[(1, 128)])), [Verdict::Missed; 2]);
+    assert_eq!(verdicts(&assignment, driving(&[(1, 128)])), [AttemptOutcome::Missed; 2]);
     let assignment = parsed(&text).in_world_with_robots(lot(ABOUT.name), barges).unwrap();
-    assert_eq!(verdicts(&assignment, driving(&[(1, 128)])), [Verdict::Passed; 2]);
+    assert_eq!(verdicts(&assignment, driving(&[(1, 128)])), [AttemptOutcome::Passed; 2]);
 }

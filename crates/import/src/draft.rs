@@ -1,4 +1,4 @@
-//! `Draft`, a world under construction, with notes for its reader.
+//! `WorldDraft`, a world under construction, with notes for its reader.
 
 use super::Imported;
 use motion_lab_core::worlds::{Resident, WorldBuilder, WorldProblem, Xy};
@@ -8,12 +8,12 @@ const MAX_NOTES: usize = 100;
 
 /// A world under construction, and what its reader must know of it.
 #[derive(Default)]
-pub struct Draft {
+pub struct WorldDraft {
     pub world: WorldBuilder,
     notes: Vec<String>,
 }
 
-impl Draft {
+impl WorldDraft {
     /// Adds a robot, named after its kind.
     pub fn robot(&mut self, kind: &str, start: Vec<f64>) -> Result<(), WorldProblem> {
         let name = self.world.claim(&capitalised(kind));

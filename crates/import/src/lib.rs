@@ -7,7 +7,7 @@
 //! | an IR-SIM world, [`irsim()`] | circles, boxes, polygons, walls and robots |
 //! | an SVG drawing, [`svg()`] | filled shapes as solid obstacles, shapes that are only stroked as walls |
 //!
-//! Nothing here opens a file: bytes go in, a [`CellMap`] or an [`Imported`] world comes out. The world is one that
+//! Nothing here opens a file: bytes go in, a [`OccupancyMap`] or an [`Imported`] world comes out. The world is one that
 //! [`World::parse`](motion_lab_core::worlds::World::parse) would give: its text reads back as the same world.
 
 mod draft;
@@ -21,12 +21,12 @@ use motion_lab_core::worlds::{Resident, World, WorldProblem};
 
 pub use error::{ImportError, ImportProblem};
 pub use irsim::scene::irsim;
-pub use map::cells::{CellMap, CellStyle};
+pub use map::cells::{CellStyle, OccupancyMap};
 pub use map::movingai::movingai;
 pub use map::ros::{RosMap, Unknown, is_ros_map};
 pub use svg::read::{SvgOptions, svg};
 
-use draft::Draft;
+use draft::WorldDraft;
 
 /// A world that was read from another format.
 #[derive(Clone, Debug, PartialEq)]

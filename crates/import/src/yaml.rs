@@ -21,39 +21,39 @@ const MAX_KEYS: usize = 100;
 
 /// A part of a file.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
+pub(super) struct YamlNode {
     pub line: usize,
-    pub value: Value,
+    pub value: YamlValue,
 }
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(super) enum YamlValue {
     /// A text. If `quoted`, it stood in quotes and is not a number.
     Scalar {
         text: String,
         quoted: bool,
     },
-    List(Vec<Node>),
+    List(Vec<YamlNode>),
     /// Keys with their lines, no two of them equal.
-    Mapping(Vec<(String, usize, Node)>),
+    Mapping(Vec<(String, usize, YamlNode)>),
 }
 
 /// A list or mapping whose end has not been read.
-enum Open {
-    List(usize, Vec<Node>),
-    Mapping(usize, Vec<(String, usize, Node)>, Option<(String, usize)>),
+enum OpenNode {
+    List(usize, Vec<YamlNode>),
+    Mapping(usize, Vec<(String, usize, YamlNode)>, Option<(String, usize)>),
 }
 
 /// Parses a file that holds one document. An empty file is an empty mapping.
-pub(super) fn read(text: &str) -> Result<Node, ImportError> {
+pub(super) fn read(text: &str) -> Result<YamlNode, ImportError> {
     if text.bytes().filter(|b| b",[]{}".contains(b)).count() > MAX_SIGNS {
         return Err(unsupported(
             0,
             &format!("more than {MAX_SIGNS} of the signs , [ ] {{ }}; lists of a line each have none"),
         ));
     }
-    let mut open: Vec<Open> = Vec::new();
-    let mut whole: Option<Node> = None;
+    let mut open: Vec<OpenNode> = Vec::new();
+    let mut whole: Option<YamlNode> = None;
     let mut values = 0;
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| syntax(error.marker().line(), error.info()))?;
@@ -68,23 +68,24 @@ pub(super) fn read(text: &str) -> Result<Node, ImportError> {
             Event::Scalar(_, _, _, Some(_)) | Event::SequenceStart(_, Some(_)) | Event::MappingStart(_, Some(_)) => {
                 return Err(unsupported(line, "tags"));
             }
-            Event::Scalar(text, style, ..) => {
-                Some(Node { line, value: Value::Scalar { text: text.into(), quoted: style != ScalarStyle::Plain } })
-            }
+            Event::Scalar(text, style, ..) => Some(YamlNode {
+                line,
+                value: YamlValue::Scalar { text: text.into(), quoted: style != ScalarStyle::Plain },
+            }),
             Event::SequenceStart(..) | Event::MappingStart(..) if open.len() == DEEPEST => {
                 return Err(syntax(line, "nested too deeply"));
             }
             Event::SequenceStart(..) => {
-                open.push(Open::List(line, Vec::new()));
+                open.push(OpenNode::List(line, Vec::new()));
                 None
             }
             Event::MappingStart(..) => {
-                open.push(Open::Mapping(line, Vec::new(), None));
+                open.push(OpenNode::Mapping(line, Vec::new(), None));
                 None
             }
             Event::SequenceEnd | Event::MappingEnd => open.pop().map(|part| match part {
-                Open::List(line, nodes) => Node { line, value: Value::List(nodes) },
-                Open::Mapping(line, entries, _) => Node { line, value: Value::Mapping(entries) },
+                OpenNode::List(line, nodes) => YamlNode { line, value: YamlValue::List(nodes) },
+                OpenNode::Mapping(line, entries, _) => YamlNode { line, value: YamlValue::Mapping(entries) },
             }),
             Event::DocumentStart(_) if whole.is_some() => return Err(syntax(line, "a second document")),
             _ => None,
@@ -96,26 +97,26 @@ pub(super) fn read(text: &str) -> Result<Node, ImportError> {
         }
         match open.last_mut() {
             None => whole = Some(node),
-            Some(Open::List(_, nodes)) => nodes.push(node),
-            Some(Open::Mapping(_, entries, key)) => match key.take() {
+            Some(OpenNode::List(_, nodes)) => nodes.push(node),
+            Some(OpenNode::Mapping(_, entries, key)) => match key.take() {
                 Some((key, key_line)) => entries.push((key, key_line, node)),
                 None => *key = Some(key_of(node, entries)?),
             },
         }
     }
-    Ok(whole.unwrap_or(Node { line: 1, value: Value::Mapping(Vec::new()) }))
+    Ok(whole.unwrap_or(YamlNode { line: 1, value: YamlValue::Mapping(Vec::new()) }))
 }
 
 /// Reads a node as a key of a mapping. Refuses a key that is there already.
-fn key_of(node: Node, before: &[(String, usize, Node)]) -> Result<(String, usize), ImportError> {
+fn key_of(node: YamlNode, before: &[(String, usize, YamlNode)]) -> Result<(String, usize), ImportError> {
     match node.value {
         _ if before.len() == MAX_KEYS => {
             Err(unsupported(node.line, &format!("more than {MAX_KEYS} keys of one mapping")))
         }
-        Value::Scalar { text, .. } if before.iter().any(|(key, ..)| *key == text) => {
+        YamlValue::Scalar { text, .. } if before.iter().any(|(key, ..)| *key == text) => {
             Err(ImportError::at(node.line, text, ImportProblem::Syntax("the key stands there twice".into())))
         }
-        Value::Scalar { text, .. } => Ok((text, node.line)),
+        YamlValue::Scalar { text, .. } => Ok((text, node.line)),
         _ => Err(syntax(node.line, "a key must be a word")),
     }
 }
@@ -128,12 +129,12 @@ fn unsupported(line: usize, what: &str) -> ImportError {
     ImportError::at(line, "", ImportProblem::Unsupported(what.into()))
 }
 
-impl Node {
+impl YamlNode {
     /// Reads the node as a number. Errors name it `item`.
     pub fn number(&self, item: &str) -> Result<f64, ImportError> {
         let expected = "a finite number";
         match &self.value {
-            Value::Scalar { text, quoted: false } => match text.parse::<f64>() {
+            YamlValue::Scalar { text, quoted: false } => match text.parse::<f64>() {
                 Ok(x) if x.is_finite() => Ok(x),
                 _ => Err(ImportError::at(self.line, item, wrong_value(text, expected))),
             },
@@ -144,15 +145,15 @@ impl Node {
     /// Reads the node as a text. Errors name it `item`.
     pub fn text(&self, item: &str) -> Result<&str, ImportError> {
         match &self.value {
-            Value::Scalar { text, .. } if !text.is_empty() => Ok(text),
+            YamlValue::Scalar { text, .. } if !text.is_empty() => Ok(text),
             _ => Err(self.wrong(item, "a text")),
         }
     }
 
     /// Reads the node as a list. Errors name it `item`.
-    pub fn list(&self, item: &str) -> Result<&[Node], ImportError> {
+    pub fn list(&self, item: &str) -> Result<&[YamlNode], ImportError> {
         match &self.value {
-            Value::List(nodes) => Ok(nodes),
+            YamlValue::List(nodes) => Ok(nodes),
             _ => Err(self.wrong(item, "a list")),
         }
     }
@@ -175,7 +176,7 @@ impl Node {
     /// Reads the node as a mapping. Errors name it `item`.
     pub fn fields(&self, item: &str) -> Result<Fields<'_>, ImportError> {
         match &self.value {
-            Value::Mapping(entries) => {
+            YamlValue::Mapping(entries) => {
                 Ok(Fields { line: self.line, item: item.to_owned(), left: entries.iter().collect() })
             }
             _ => Err(self.wrong(item, "keys with values")),
@@ -185,9 +186,9 @@ impl Node {
     /// The error that `item` is not what is expected.
     pub fn wrong(&self, item: &str, expected: &'static str) -> ImportError {
         let found = match &self.value {
-            Value::Scalar { text, .. } => text.clone(),
-            Value::List(_) => "a list".into(),
-            Value::Mapping(_) => "keys with values".into(),
+            YamlValue::Scalar { text, .. } => text.clone(),
+            YamlValue::List(_) => "a list".into(),
+            YamlValue::Mapping(_) => "keys with values".into(),
         };
         ImportError::at(self.line, item, wrong_value(found, expected))
     }
@@ -198,18 +199,18 @@ pub(super) struct Fields<'a> {
     /// The line the mapping begins in.
     pub line: usize,
     item: String,
-    left: Vec<&'a (String, usize, Node)>,
+    left: Vec<&'a (String, usize, YamlNode)>,
 }
 
 impl<'a> Fields<'a> {
     /// Takes the value of a key, if it is there.
-    pub fn take(&mut self, key: &str) -> Option<&'a Node> {
+    pub fn take(&mut self, key: &str) -> Option<&'a YamlNode> {
         let at = self.left.iter().position(|(k, ..)| k == key)?;
         Some(&self.left.remove(at).2)
     }
 
     /// Takes the value of a key that must be there.
-    pub fn need(&mut self, key: &'static str) -> Result<&'a Node, ImportError> {
+    pub fn need(&mut self, key: &'static str) -> Result<&'a YamlNode, ImportError> {
         self.take(key).ok_or_else(|| ImportError::at(self.line, &self.item, ImportProblem::Missing(key)))
     }
 

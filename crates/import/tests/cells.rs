@@ -4,14 +4,14 @@ use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::geometry::{Footprint, Point2, Vector2};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::worlds::{Grid, ObstacleKind, World};
-use motion_lab_import::{CellMap, CellStyle, ImportError, RosMap, Unknown, movingai};
+use motion_lab_import::{CellStyle, ImportError, OccupancyMap, RosMap, Unknown, movingai};
 
 use crate::{assert_prints_as_itself, corners, is_hit, sample};
 
 /// The note about a hollow world.
 const HOLLOW: &str = "the occupied cells are hollow: a robot put inside their walls touches nothing";
 
-fn room(unknown: Unknown) -> CellMap {
+fn room(unknown: Unknown) -> OccupancyMap {
     let map = RosMap::parse("room.yaml", &sample("room.yaml")).unwrap();
     assert_eq!(map.image, "room.pgm");
     map.cells("room.pgm", sample("room.pgm").as_bytes(), unknown).unwrap()
@@ -114,7 +114,7 @@ fn a_degree_at_the_threshold_itself_is_beyond_it() {
     let text = "image: x\nresolution: 1\norigin: [0, 0, 0]\nmode: raw\nfree_thresh: 0.25\noccupied_thresh: 0.5\n";
     let map = RosMap::parse("x.yaml", text).unwrap();
     let cells = |unknown| map.cells("x", b"P2 4 1 255 24 25 49 50", unknown).unwrap();
-    let occupied = |map: &CellMap| (0..4).map(|c| map.grid.is_occupied(c, 0)).collect::<Vec<_>>();
+    let occupied = |map: &OccupancyMap| (0..4).map(|c| map.grid.is_occupied(c, 0)).collect::<Vec<_>>();
     let (free, solid) = (cells(Unknown::Free), cells(Unknown::Occupied));
     assert_eq!(occupied(&free), [false, false, false, true]);
     assert_eq!(occupied(&solid), [false, true, true, true]);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use motion_lab_core::picture::{Palette, Role};
 
 /// Largest number of colours.
-const MOST: usize = 256;
+const MAX_COLOURS: usize = 256;
 
 /// A picture as a palette and an index per pixel.
 pub struct FewColours {
@@ -29,7 +29,7 @@ impl FewColours {
         let mut others: Vec<([u8; 3], usize)> = counts.into_iter().collect();
         // stable: colours of one frequency stay in their own order
         others.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
-        let room = MOST - colours.len();
+        let room = MAX_COLOURS - colours.len();
         colours.extend(others.iter().take(room).map(|(colour, _)| *colour));
         let mut numbers: BTreeMap<[u8; 3], u8> = (0..=u8::MAX).zip(&colours).map(|(n, c)| (*c, n)).collect();
         let number = |colour| *numbers.entry(colour).or_insert_with(|| nearest(&colours, colour));
@@ -62,7 +62,7 @@ mod tests {
         }
         pixels.push(red);
         let few = FewColours::of(&pixels.concat(), &REDS);
-        assert_eq!((few.palette.len(), few.pixels.len()), (3 * MOST, pixels.len()));
+        assert_eq!((few.palette.len(), few.pixels.len()), (3 * MAX_COLOURS, pixels.len()));
         let colour = |pixel: usize| &few.palette[3 * usize::from(few.pixels[pixel])..][..3];
         assert_eq!(colour(pixels.len() - 1), red);
         assert_eq!(colour(0), [0, 0, 0], "a frequent one is itself");

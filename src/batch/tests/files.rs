@@ -1,12 +1,12 @@
 //! Parts, journals and tables: they come back, and damaged ones do not.
 
 use super::super::*;
-use super::plan;
+use super::study;
 
 /// A part of rows 2 to 4 of five failed runs.
-fn part(plan: &SweepPlan) -> Vec<u8> {
-    let mut writer = PartWriter::new(Vec::new(), &PartHead::new(plan, 2..5), plan.columns()).unwrap();
-    (2..5).for_each(|row| writer.row(&plan.failed(row, "a, \"b\"").to_line()).unwrap());
+fn part(study: &Study) -> Vec<u8> {
+    let mut writer = PartWriter::new(Vec::new(), &PartHead::new(study, 2..5), study.columns()).unwrap();
+    (2..5).for_each(|row| writer.row(&study.failed(row, "a, \"b\"").to_line()).unwrap());
     writer.finish().unwrap()
 }
 
@@ -21,9 +21,9 @@ fn read(bytes: &[u8]) -> Result<Vec<RunRow>, PartError> {
 
 #[test]
 fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
-    let plan = plan("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
-    let whole = part(&plan);
-    assert_eq!(read(&whole).unwrap(), (2..5).map(|row| plan.failed(row, "a, \"b\"")).collect::<Vec<_>>());
+    let study = study("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
+    let whole = part(&study);
+    assert_eq!(read(&whole).unwrap(), (2..5).map(|row| study.failed(row, "a, \"b\"")).collect::<Vec<_>>());
     let text = String::from_utf8(whole.clone()).unwrap();
     assert!(text.contains("\nrows 2..5 of 5\n"));
     let rows = text.rfind("rows 2..5").unwrap();
@@ -37,7 +37,7 @@ fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
     assert!(read(&[&whole[..], b"\n"].concat()).is_err(), "something behind its seal");
     assert!(matches!(read(b"Sweep(version: 1)"), Err(PartError::NotAPart)));
     assert!(matches!(read(b""), Err(PartError::Empty)));
-    // a damaged plan is damage, not the plan of another version
+    // a damaged study is damage, not the study of another version
     let line = text.find("motion-lab sweep 1").unwrap();
     for (at, byte) in [(line + 17, b'2'), (text.find("worlds").unwrap(), b'W'), (text.find("{").unwrap(), b'(')] {
         let mut changed = whole.clone();
@@ -46,42 +46,42 @@ fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
     }
     let later = text[..text.rfind("seal ").unwrap()].replace("motion-lab sweep 1", "motion-lab sweep 2");
     let sealed = format!("{later}seal {:032x}\n", xxhash_rust::xxh3::xxh3_128(later.as_bytes()));
-    assert!(matches!(read(sealed.as_bytes()), Err(PartError::Plan(reason)) if reason.contains("sweep 2")));
+    assert!(matches!(read(sealed.as_bytes()), Err(PartError::Study(reason)) if reason.contains("sweep 2")));
     assert!(matches!(read(format!("{sealed}\n").as_bytes()), Err(PartError::Seal)));
 }
 
 #[test]
 fn a_journals_line_is_known_whole() {
-    let plan = plan("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
-    let line = plan.failed(3, "b").to_line();
+    let study = study("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
+    let line = study.failed(3, "b").to_line();
     let sealed = sealed_line(&line);
     let sealed = sealed.strip_suffix('\n').unwrap();
-    assert_eq!(unsealed_line(sealed, plan.columns()), Some((3, line.as_str())));
+    assert_eq!(unsealed_line(sealed, study.columns()), Some((3, line.as_str())));
     for at in 0..sealed.len() {
-        assert_eq!(unsealed_line(&sealed[..at], plan.columns()), None, "cut at {at}");
+        assert_eq!(unsealed_line(&sealed[..at], study.columns()), None, "cut at {at}");
     }
-    assert_eq!(unsealed_line(&sealed.replace(",b,", ",c,"), plan.columns()), None);
+    assert_eq!(unsealed_line(&sealed.replace(",b,", ",c,"), study.columns()), None);
 }
 
 #[test]
 fn a_table_comes_back_row_by_row() {
-    let plan = plan(
+    let study = study(
         "Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(18446744073709551000, 18446744073709551500))])",
     );
-    let rows: Vec<RunRow> = (0..plan.runs())
+    let rows: Vec<RunRow> = (0..study.runs())
         .map(|row| {
-            let mut made = plan.failed(row, if row % 3 == 0 { "l'\u{e9}t\u{e9}" } else { "" });
-            let x = plan.columns().iter().position(|column| column.name == "path_m").unwrap();
-            made.cells[x] = Cell::Number(row as f64 / 7.0);
+            let mut made = study.failed(row, if row % 3 == 0 { "l'\u{e9}t\u{e9}" } else { "" });
+            let x = study.columns().iter().position(|column| column.name == "path_m").unwrap();
+            made.cells[x] = RowValue::Number(row as f64 / 7.0);
             made
         })
         .collect();
-    let mut writer = TableWriter::new(Vec::new(), &plan).unwrap();
+    let mut writer = TableWriter::new(Vec::new(), &study).unwrap();
     rows.iter().for_each(|row| writer.row(row.clone()).unwrap());
     let file = tempfile::NamedTempFile::new().unwrap();
     std::fs::write(file.path(), writer.finish().unwrap()).unwrap();
     let table = TableFile::open(file.reopen().unwrap()).unwrap();
-    assert_eq!(table.plan().line(), plan.line());
+    assert_eq!(table.study().line(), study.line());
     let mut seen = Vec::new();
     table.each(|row| seen.push(row)).unwrap();
     assert_eq!(seen, rows);

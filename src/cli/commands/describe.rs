@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cli::{Data, Failure, Outcome};
 use motion_lab::configuration::RobotKind;
-use motion_lab::manifest::{Formula, Lesson, Told, Widget};
+use motion_lab::manifest::{ChapterFormula, Formula, Lesson, Widget};
 use motion_lab::picture::{Rgb, Role, Theme};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
@@ -41,7 +41,7 @@ impl Describe {
                 })
             })
             .collect();
-        let told = Told::all().iter().map(|told| {
+        let told = ChapterFormula::all().iter().map(|told| {
             json!({
                 "at": told.at(), "mathml": told.formula.mathml(), "spoken": told.spoken, "code": told.code,
             })

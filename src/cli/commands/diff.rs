@@ -59,7 +59,7 @@ struct FirstValue {
     /// Of a robot with several scans, the number of the scan that holds the value, from 1, and its sensor's name, which
     /// is empty for the run's own sensor and null for one that the run's configuration does not have.
     #[serde(flatten)]
-    scan: Option<Scan>,
+    scan: Option<ScanDifference>,
     field: String,
     a: JsonValue,
     b: JsonValue,
@@ -72,7 +72,7 @@ struct FirstValue {
 
 /// One of a robot's scans.
 #[derive(Serialize)]
-struct Scan {
+struct ScanDifference {
     scan: usize,
     sensor: Option<String>,
     #[serde(skip)]
@@ -158,7 +158,7 @@ impl FirstValue {
             tick: *tick,
             robot: *robot,
             name,
-            scan: scan.as_ref().map(Scan::of),
+            scan: scan.as_ref().map(ScanDifference::of),
             field: field.clone(),
             a: (*expected).into(),
             b: (*found).into(),
@@ -187,9 +187,9 @@ impl FirstValue {
     }
 }
 
-impl Scan {
+impl ScanDifference {
     fn of(scan: &DivergingScan) -> Self {
-        Scan { scan: scan.number, sensor: scan.sensor.clone(), printed: scan.to_string() }
+        ScanDifference { scan: scan.number, sensor: scan.sensor.clone(), printed: scan.to_string() }
     }
 }
 

@@ -21,13 +21,13 @@ use crate::cli::{Failure, Outcome};
   motion-lab open lot
   motion-lab open warehouse.ron
   motion-lab open run.mcap")]
-pub struct Open {
+pub struct OpenArgs {
     /// A built-in world, a world file, or a log.
     #[arg(value_parser = WorldNames)]
     what: Option<String>,
 }
 
-impl Open {
+impl OpenArgs {
     /// Runs the command.
     pub fn run(self) -> Result<Outcome, Failure> {
         ended(open_in_window(self.what.as_deref().map_or(Ok(Opened::Tour), found)?, |_| {}))

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use motion_lab::capture::{Form, MOST_LINES, RunPlot, plot};
+use motion_lab::capture::{CaptureForm, MAX_LINES, RunPlot, plot};
 use motion_lab::configuration::Kinds;
 use motion_lab::run::{Difference, Log, Quantity, Recipe, Series, SeriesGatherer};
 
@@ -37,8 +37,8 @@ pub struct PlotArgs {
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// The form. [default: by the output's name; svg for `-`]
-    #[arg(long, value_parser = form([Form::Svg, Form::Png]))]
-    format: Option<Form>,
+    #[arg(long, value_parser = form([CaptureForm::Svg, CaptureForm::Png]))]
+    format: Option<CaptureForm>,
     /// Plot the robots named so only; may be given several times. [default: every robot that has the quantity, up to 8
     /// lines]
     #[arg(long, value_name = "NAME", value_parser = RobotNames, hide_possible_values = true)]
@@ -81,9 +81,9 @@ impl PlotArgs {
     }
 
     /// The form: what was said, else what the output's name tells.
-    fn form(&self) -> Result<Form, Failure> {
-        let of_name = || Form::of(&self.output).filter(|form| *form != Form::Gif);
-        let named = || if is_dash(&self.output) { Some(Form::Svg) } else { of_name() };
+    fn form(&self) -> Result<CaptureForm, Failure> {
+        let of_name = || CaptureForm::of(&self.output).filter(|form| *form != CaptureForm::Gif);
+        let named = || if is_dash(&self.output) { Some(CaptureForm::Svg) } else { of_name() };
         self.format.or_else(named).ok_or_else(|| {
             let reason = format!("{}: its name does not tell the form of a plot", self.output.display());
             Failure::usage(reason, "Let it end in .svg or .png, or say --format.")
@@ -110,9 +110,9 @@ impl PlotArgs {
                 let file = shown(&self.file);
                 return Err(Failure::usage(format!("{file}: no robot asked for has {what}"), next));
             }
-            lines if lines > MOST_LINES => {
-                say(format!("{lines} lines: the first {MOST_LINES} are drawn; choose others by --robot"));
-                gatherer.truncate(MOST_LINES);
+            lines if lines > MAX_LINES => {
+                say(format!("{lines} lines: the first {MAX_LINES} are drawn; choose others by --robot"));
+                gatherer.truncate(MAX_LINES);
             }
             _ => {}
         }

@@ -9,8 +9,8 @@ use serde::Serialize;
 
 use crate::cli::support::interrupt;
 use crate::cli::support::log_source::{LogSource, read_log};
-use crate::cli::support::output::PendingFile;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::output::ReportedFile;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::support::target::Target;
@@ -28,7 +28,7 @@ Examples:
   motion-lab replay run.mcap
   motion-lab replay cut.mcap -o whole.mcap
   motion-lab replay digests.mcap --log full -o full.mcap")]
-pub struct Replay {
+pub struct ReplayArgs {
     /// The log; `-` is standard input.
     file: PathBuf,
     /// Write the replayed run's log to this file.
@@ -56,7 +56,7 @@ struct Replayed<'a> {
     divergence: Option<String>,
 }
 
-impl Replay {
+impl ReplayArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let LogSource { log, damage, .. } = read_log(&self.file)?;
@@ -95,7 +95,7 @@ impl Replay {
         let mut run = begin(&log.recipe)?;
         let mut comparison = Comparison::begin(log, run.frame());
         let mut writer = self.writer(log, run.frame())?;
-        let progress = Progress::of(log.recipe.config.ticks, "ticks");
+        let progress = CommandProgress::of(log.recipe.config.ticks, "ticks");
         while !run.is_complete() {
             if interrupt::asked_to_stop() {
                 return Ok(None);
@@ -113,9 +113,9 @@ impl Replay {
         Ok(Some((run.frame().clone(), comparison)))
     }
 
-    fn writer(&self, log: &Log, initial: &Frame) -> Result<Option<LogWriter<PendingFile>>, Failure> {
+    fn writer(&self, log: &Log, initial: &Frame) -> Result<Option<LogWriter<ReportedFile>>, Failure> {
         let Some(output) = &self.output else { return Ok(None) };
-        let (file, kind) = (PendingFile::create(output)?, self.log.unwrap_or(log.kind()));
+        let (file, kind) = (ReportedFile::create(output)?, self.log.unwrap_or(log.kind()));
         LogWriter::new(file, &log.recipe, kind, initial).map(Some).map_err(|error| self.failed(error))
     }
 

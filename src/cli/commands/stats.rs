@@ -39,12 +39,12 @@ struct LogStats<'a> {
     seed: u64,
     ticks: u64,
     seconds: JsonNumber,
-    robots: Vec<RobotLine<'a>>,
+    robots: Vec<RobotStatsRow<'a>>,
 }
 
 /// A robot's stats as JSON.
 #[derive(Serialize)]
-struct RobotLine<'a> {
+struct RobotStatsRow<'a> {
     name: &'a str,
     kind: &'a str,
     world: &'a str,
@@ -94,7 +94,7 @@ impl StatsArgs {
 
 impl<'a> LogStats<'a> {
     fn new(file: &Path, seed: u64, stats: &'a RunStats) -> Self {
-        let robot = |robot: &'a RobotStats| RobotLine {
+        let robot = |robot: &'a RobotStats| RobotStatsRow {
             name: &robot.name,
             kind: &robot.kind,
             world: &robot.world,

@@ -9,12 +9,12 @@ use motion_lab::recording::Verification;
 use motion_lab::run::{LogKind, Recipe};
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
-use super::record::{Ended, Stop, write_run};
+use super::record::{Ended, StopRule, write_run};
 use crate::cli::support::console::note;
 use crate::cli::support::interrupt;
 use crate::cli::support::log_source::{digest_of, read_full_log};
 use crate::cli::support::output::write_file;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::verify;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::support::target::Target;
@@ -32,7 +32,7 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     let recipe = Recipe::new(TourConfig::default(), BOOK_SEED);
     let recorded = Target::of(&file)?;
     interrupt::listen()?;
-    if let Ended::Stopped(tick) = write_run(&recipe, LogKind::Frames, None, Stop::default(), &file)? {
+    if let Ended::Stopped(tick) = write_run(&recipe, LogKind::Frames, None, StopRule::default(), &file)? {
         say(format!("stopped after tick {tick}; run it again"));
         return Ok(Outcome::Stopped);
     }
@@ -40,7 +40,7 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     let log = read_full_log(&file)?.log;
     let mut figure = RunFigure::default();
     let Verification { identical, digest, difference, .. } = {
-        let progress = Progress::of(log.ticks(), "ticks replayed");
+        let progress = CommandProgress::of(log.ticks(), "ticks replayed");
         verify(&log, |run| {
             figure.watch(run.view());
             progress.at(run.frame().tick);

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::cli::support::input::{shown, title, worst_of_each};
 use crate::cli::support::log_source::{LogSource, read_log, say_damage};
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::verify;
 use crate::cli::{Data, Failure, Outcome};
 
@@ -36,7 +36,7 @@ pub struct Verify {
 }
 
 #[derive(Serialize)]
-struct Verdict {
+struct VerifyReport {
     /// The file; left out where there is one alone.
     #[serde(skip_serializing_if = "Option::is_none")]
     file: Option<String>,
@@ -57,7 +57,7 @@ impl Verify {
     fn one(&self, file: &Path, several: bool, data: &mut Data) -> Result<Outcome, Failure> {
         let LogSource { log, damage, .. } = read_log(file)?;
         say_damage(damage.as_ref(), "verified");
-        let verdict = Verdict { file: several.then(|| shown(file)), ..Verdict::of(&log)? };
+        let verdict = VerifyReport { file: several.then(|| shown(file)), ..VerifyReport::of(&log)? };
         if self.json {
             data.json(&verdict)?;
         } else {
@@ -72,10 +72,10 @@ impl Verify {
     }
 }
 
-impl Verdict {
+impl VerifyReport {
     /// Simulates the run of a log again and compares it.
     fn of(log: &Log) -> Result<Self, Failure> {
-        let progress = Progress::of(log.ticks(), "ticks");
+        let progress = CommandProgress::of(log.ticks(), "ticks");
         let Verification { recorded: sealed, identical, digest: simulated, difference, .. } =
             verify(log, |run| progress.at(run.frame().tick))?;
         // a log of digests that ends early does not know the digest of what it has
@@ -85,11 +85,11 @@ impl Verdict {
         };
         let divergence = difference.map(|difference| difference.to_string());
         let ticks = log.recipe.config.ticks;
-        Ok(Verdict { file: None, ticks, sealed, identical, digest: digest.to_string(), divergence })
+        Ok(VerifyReport { file: None, ticks, sealed, identical, digest: digest.to_string(), divergence })
     }
 
     fn print(&self, damaged: bool, data: &mut Data) -> Result<(), Failure> {
-        let Verdict { ticks, sealed, identical, digest, divergence, .. } = self;
+        let VerifyReport { ticks, sealed, identical, digest, divergence, .. } = self;
         if let Some(divergence) = divergence {
             data.line(divergence)?;
         }

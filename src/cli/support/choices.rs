@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use clap::{Arg, Command, Error};
-use motion_lab::capture::Form;
+use motion_lab::capture::CaptureForm;
 use motion_lab::configuration::RobotKind;
 use motion_lab::picture::Theme;
 use motion_lab::run::LogKind;
@@ -36,15 +36,15 @@ pub const KINDS: [&str; 5] =
 
 /// Numbers joined by commas.
 #[derive(Clone, Debug)]
-pub struct Numbers(pub Vec<f64>);
+pub struct NumberList(pub Vec<f64>);
 
-impl FromStr for Numbers {
+impl FromStr for NumberList {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
         let number =
             |n: &str| n.trim().parse().map_err(|_| format!("{n:?} is no number; join numbers by commas: 0.785,1.571"));
-        text.split(',').map(number).collect::<Result<_, _>>().map(Numbers)
+        text.split(',').map(number).collect::<Result<_, _>>().map(NumberList)
     }
 }
 
@@ -68,7 +68,7 @@ pub fn theme() -> impl TypedValueParser<Value = Theme> {
 }
 
 /// Reads the name of a form of pictures, one of these.
-pub fn form<const N: usize>(forms: [Form; N]) -> impl TypedValueParser<Value = Form> {
+pub fn form<const N: usize>(forms: [CaptureForm; N]) -> impl TypedValueParser<Value = CaptureForm> {
     one_of(forms.map(|form| (form.extension(), form, "")))
 }
 

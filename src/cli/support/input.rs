@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-use super::progress::Progress;
+use super::progress::CommandProgress;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Largest size of a script, a map or another text, bytes.
@@ -110,7 +110,8 @@ pub fn worst_of_each(
     let order = [Outcome::Done, Outcome::Recovered, Outcome::BadInput, Outcome::Differs];
     let rank = |outcome: Outcome| order.iter().position(|o| *o == outcome);
     let mut worst = Outcome::Done;
-    let progress = if files.len() < MANY { Progress::none() } else { Progress::of(files.len() as u64, "files") };
+    let progress =
+        if files.len() < MANY { CommandProgress::none() } else { CommandProgress::of(files.len() as u64, "files") };
     for file in files {
         let outcome = match with(file, data) {
             Err(failure @ Failure::Input { .. }) => {

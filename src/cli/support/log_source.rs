@@ -5,7 +5,7 @@ use std::path::Path;
 use motion_lab::run::{Digest, Log, LogError, LogKind, ReadLog};
 
 use super::input::{read_bytes_if, shown};
-use super::progress::Progress;
+use super::progress::CommandProgress;
 use crate::cli::{Failure, say};
 
 /// Largest size of a log file, bytes.
@@ -45,7 +45,8 @@ pub fn read_full_log(path: &Path) -> Result<LogSource, Failure> {
 /// Reads a log; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be used.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
     let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
-    let progress = if bytes.len() < LONG { Progress::none() } else { Progress::of_bytes(bytes.len() as u64) };
+    let progress =
+        if bytes.len() < LONG { CommandProgress::none() } else { CommandProgress::of_bytes(bytes.len() as u64) };
     match Log::read_mcap_with(&bytes, |checked| progress.at(checked)) {
         Ok(ReadLog { log, program, .. }) => Ok(LogSource { log, program, damage: None }),
         Err(LogError::Damaged(damaged)) => {

@@ -8,16 +8,16 @@ use motion_lab::output;
 use crate::cli::Failure;
 
 /// A file that is being written: see [`output::PendingFile`].
-pub struct PendingFile {
+pub struct ReportedFile {
     path: PathBuf,
     file: output::PendingFile,
 }
 
-impl PendingFile {
+impl ReportedFile {
     /// Begins a file that will be at `path`.
     pub fn create(path: &Path) -> Result<Self, Failure> {
         let file = output::PendingFile::create(path).map_err(|error| Failure::output(path, &error))?;
-        Ok(PendingFile { path: path.to_owned(), file })
+        Ok(ReportedFile { path: path.to_owned(), file })
     }
 
     /// Puts the file in its place.
@@ -36,7 +36,7 @@ impl PendingFile {
     }
 }
 
-impl Write for PendingFile {
+impl Write for ReportedFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         self.file.write(bytes)
     }

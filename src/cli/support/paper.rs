@@ -4,7 +4,7 @@ use motion_lab::picture::Theme;
 use std::path::Path;
 
 use clap::Args;
-use motion_lab::capture::{self, CaptureError, Captured, Form, Paper};
+use motion_lab::capture::{self, CaptureError, CaptureForm, Captured, Paper};
 
 use super::choices;
 use crate::cli::Failure;
@@ -38,7 +38,7 @@ fn parse_scale(text: &str) -> Result<f32, String> {
 }
 
 /// Writes a picture to `path`.
-pub fn write_picture(captured: &Captured, paper: &Paper, form: Form, path: &Path) -> Result<(), Failure> {
+pub fn write_picture(captured: &Captured, paper: &Paper, form: CaptureForm, path: &Path) -> Result<(), Failure> {
     capture::write(captured, paper, form, path).map_err(|error| not_written(path, error))
 }
 

@@ -10,12 +10,12 @@ use super::console::{is_quiet, show_bar, take_bar};
 
 /// How far a command has come: a bar with the rate and the time left, which disappears when the work has ended. Nothing
 /// is written where standard error is no terminal, or with `--quiet`, or where the bar of a larger work is there.
-pub struct Progress {
+pub struct CommandProgress {
     bar: ProgressBar,
     is_shown: bool,
 }
 
-impl Progress {
+impl CommandProgress {
     /// The beginning of `count` pieces of work called `what`: ticks, pictures, seeds.
     pub fn of(count: u64, what: &str) -> Self {
         let template = format!("{{bar:40}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} left");
@@ -50,7 +50,7 @@ impl Progress {
 
     /// The progress of work that nobody watches.
     pub fn none() -> Self {
-        Progress { bar: ProgressBar::hidden(), is_shown: false }
+        CommandProgress { bar: ProgressBar::hidden(), is_shown: false }
     }
 
     /// The beginning of work whose amount nobody knows, in words.
@@ -71,7 +71,7 @@ impl Progress {
             Ok(style) => bar.with_style(style.with_key("rate", rate)),
             Err(_) => bar,
         };
-        if show_bar(&bar) { Progress { bar, is_shown: true } } else { Progress::none() }
+        if show_bar(&bar) { CommandProgress { bar, is_shown: true } } else { CommandProgress::none() }
     }
 
     /// This number of pieces is done.
@@ -96,7 +96,7 @@ impl Progress {
 }
 
 /// An input that counts the bytes read from it.
-pub struct Read<'a, R>(pub R, pub &'a Progress);
+pub struct Read<'a, R>(pub R, pub &'a CommandProgress);
 
 impl<R: io::Read> io::Read for Read<'_, R> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
@@ -107,9 +107,9 @@ impl<R: io::Read> io::Read for Read<'_, R> {
 }
 
 /// An output that counts the lines written to it.
-pub struct Counted<'a, W>(pub &'a mut W, pub &'a Progress);
+pub struct CountedWriter<'a, W>(pub &'a mut W, pub &'a CommandProgress);
 
-impl<W: Write> Write for Counted<'_, W> {
+impl<W: Write> Write for CountedWriter<'_, W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let taken = self.0.write(bytes)?;
         self.1.add(bytes[..taken].iter().filter(|&&b| b == b'\n').count() as u64);
@@ -121,7 +121,7 @@ impl<W: Write> Write for Counted<'_, W> {
     }
 }
 
-impl Drop for Progress {
+impl Drop for CommandProgress {
     fn drop(&mut self) {
         if self.is_shown {
             take_bar();

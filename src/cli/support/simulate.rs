@@ -7,7 +7,7 @@ use motion_lab::recording::{Recorder, Run, RunError, Verification};
 use motion_lab::run::{Comparison, Difference, Frame, Log, Recipe, Recorded};
 use motion_lab::simulation::SpawnError;
 
-use super::progress::Progress;
+use super::progress::CommandProgress;
 use crate::cli::Failure;
 
 /// Advice about a run that can't start.
@@ -45,7 +45,7 @@ pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification,
 /// Calls `see` with every frame of a log, from tick 0 on, and shows how far it has come. The frames of a log of digests
 /// are made by simulating its run again; what then differs from its digests is returned.
 pub fn each_frame(log: &Log, mut see: impl FnMut(&Frame)) -> Result<Option<Difference>, Failure> {
-    let progress = Progress::of(log.ticks(), "ticks");
+    let progress = CommandProgress::of(log.ticks(), "ticks");
     let mut see = |frame: &Frame| {
         see(frame);
         progress.at(frame.tick);
@@ -66,14 +66,14 @@ pub fn each_frame(log: &Log, mut see: impl FnMut(&Frame)) -> Result<Option<Diffe
 }
 
 /// The reason to stop showing a run.
-enum Stop {
+enum StopReason {
     Run(RunError),
     Own(Failure),
 }
 
-impl From<RunError> for Stop {
+impl From<RunError> for StopReason {
     fn from(error: RunError) -> Self {
-        Stop::Run(error)
+        StopReason::Run(error)
     }
 }
 
@@ -83,9 +83,9 @@ pub fn show(
     log: &Log,
     mut watch: impl FnMut(&Recorder, &Frame) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
-    Run::show(log, |run| watch(run, run.frame()).map_err(Stop::Own)).map_err(|stop| match stop {
-        Stop::Own(failure) => failure,
-        Stop::Run(error) => not_shown(file, &error),
+    Run::show(log, |run| watch(run, run.frame()).map_err(StopReason::Own)).map_err(|stop| match stop {
+        StopReason::Own(failure) => failure,
+        StopReason::Run(error) => not_shown(file, &error),
     })
 }
 

@@ -11,7 +11,7 @@ use serde::Serialize;
 use crate::cli::{Data, Failure};
 
 /// From more robots on they are printed in one line; JSON has them all.
-const MOST_PRINTED: usize = 100;
+const MAX_PRINTED: usize = 100;
 
 /// A run as JSON.
 #[derive(Debug, Serialize)]
@@ -108,7 +108,7 @@ impl<'a> RunSummary<'a> {
     /// Pose2 { x: 2.250, y: 6.250 }  contacts: 0`. Of a crowd it prints one line, `1000 robots  contacts: 12, of 7 of
     /// them`.
     pub fn print_robots(&self, debug: bool, data: &mut Data) -> Result<(), Failure> {
-        if self.robots.len() > MOST_PRINTED {
+        if self.robots.len() > MAX_PRINTED {
             let contacts: u64 = self.robots.iter().map(|robot| u64::from(robot.contacts)).sum();
             let touching = self.robots.iter().filter(|robot| robot.contacts > 0).count();
             let of = if contacts > 0 { format!(", of {touching} of them") } else { String::new() };

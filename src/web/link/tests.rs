@@ -125,9 +125,9 @@ fn a_refusal_says_nothing_in_the_words_of_the_link() {
     );
     let said = Link::parse(&format!("script={}", utf8_percent_encode(&script, ESCAPED))).unwrap_err().to_string();
     assert!(said.starts_with("script: line:1: ") && !said.contains("expired"), "{said}");
-    assert_eq!(retold(&format!("robot {scam:?} and \"Reach\"")), "robot \"Your session...\" and \"Reach\"");
+    assert_eq!(requoted(&format!("robot {scam:?} and \"Reach\"")), "robot \"Your session...\" and \"Reach\"");
     let quoted = format!("robot {:?} and `{scam}` and \"open {scam}", format!("x\" {scam} \"y"));
-    assert_eq!(retold(&quoted), "robot \"x\\\" Your ses...\" and `Your session...` and \"open Your se...");
+    assert_eq!(requoted(&quoted), "robot \"x\\\" Your ses...\" and `Your session...` and \"open Your se...");
     let rows = format!("v={}", utf8_percent_encode("a\nb\u{202e}c", ESCAPED));
     assert!(Link::parse(&rows).unwrap_err().to_string().ends_with(r#"not "a\nb\u{202e}c""#));
     let long = format!("script={}", "Your(session)".repeat(99));

@@ -11,7 +11,7 @@ use super::downloads::picture;
 use super::error::PageError;
 use super::inbox::{Incoming, take_all, wake};
 use super::listener::tell;
-use super::message::{Action, Asked, Input, Message};
+use super::message::{Input, Message, PageAction, PageRequest};
 use super::report::Sent;
 use super::run_link::link_of;
 use crate::web::link::MAX_LINK_TICK;
@@ -39,13 +39,13 @@ pub struct Staged(VecDeque<Vec<egui::Event>>);
 pub struct Touched(pub bool);
 
 /// Largest number of frames that events are kept for: what comes then is refused.
-const MOST_STAGED: usize = 1000;
+const MAX_STAGED: usize = 1000;
 
 /// Width of the sheet of a figure that the page asks for, pixels.
 const FIGURE_WIDTH: u32 = 1280;
 
 /// Most dots for each pixel of the sheet.
-const MOST_DOTS: u32 = 3;
+const MAX_DOTS: u32 = 3;
 
 /// Carries out the messages and opens the files that have come in, and gives egui the events of this frame.
 pub fn receive(world: &mut World) {
@@ -78,7 +78,7 @@ pub fn receive(world: &mut World) {
 
 /// Carries out a request and tells what came of it: a link or a figure; that it is done, where it bears a mark; or why
 /// not.
-fn answer(world: &mut World, Asked { message, request, around }: Asked) {
+fn answer(world: &mut World, PageRequest { message, request, around }: PageRequest) {
     match take(world, message) {
         Ok(None) if request.is_none() => {}
         Ok(said) => {
@@ -128,7 +128,7 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
         change(&mut world.resource_mut::<Interface>().into_inner().0);
         Ok(None)
     };
-    if world.resource::<Staged>().0.len() >= MOST_STAGED
+    if world.resource::<Staged>().0.len() >= MAX_STAGED
         && matches!(message, Message::Act { .. } | Message::Key { .. } | Message::Paste { .. })
     {
         return Err(PageError::Busy);
@@ -209,7 +209,7 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
         }
         Message::Figure { png } => {
             let svg = picture(world, FIGURE_WIDTH)?;
-            let dots = png.map(|dots| dots.clamp(1, MOST_DOTS));
+            let dots = png.map(|dots| dots.clamp(1, MAX_DOTS));
             Ok(Some(json!({ "kind": "figure", "svg": svg, "png": dots })))
         }
         Message::Theme { name } => {
@@ -257,30 +257,30 @@ fn check(world: &World, script: Script) -> Result<(), PageError> {
 }
 
 /// Acts on a widget by AccessKit's requests, as assistive technology does.
-fn act(world: &mut World, id: &str, action: Action, value: Option<String>) -> Result<(), PageError> {
+fn act(world: &mut World, id: &str, action: PageAction, value: Option<String>) -> Result<(), PageError> {
     let target_node = NodeId::from(id.parse::<u64>().map_err(|_| PageError::Control(id.to_owned()))?);
     let request = |action, data| {
         egui::Event::AccessKitActionRequest(ActionRequest { action, target_tree: TreeId::ROOT, target_node, data })
     };
     let staged = &mut world.resource_mut::<Staged>().0;
     match (action, value) {
-        (Action::Click, _) => staged.push_back(vec![request(accesskit::Action::Click, None)]),
-        (Action::Focus, _) => staged.push_back(vec![request(accesskit::Action::Focus, None)]),
-        (Action::Set, Some(value)) => match value.parse::<f64>().ok().filter(|v| v.is_finite()) {
+        (PageAction::Click, _) => staged.push_back(vec![request(accesskit::Action::Click, None)]),
+        (PageAction::Focus, _) => staged.push_back(vec![request(accesskit::Action::Focus, None)]),
+        (PageAction::Set, Some(value)) => match value.parse::<f64>().ok().filter(|v| v.is_finite()) {
             Some(number) => {
                 let data = Some(ActionData::NumericValue(number));
                 staged.push_back(vec![request(accesskit::Action::SetValue, data)]);
             }
             None => return Err(PageError::Number(value)),
         },
-        (Action::Type, Some(value)) => {
+        (PageAction::Type, Some(value)) => {
             let key =
                 |key, modifiers| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
             staged.push_back(vec![request(accesskit::Action::Focus, None)]);
             staged.push_back(vec![key(egui::Key::A, egui::Modifiers::COMMAND), egui::Event::Text(value)]);
             staged.push_back(vec![key(egui::Key::Enter, egui::Modifiers::NONE)]);
         }
-        (Action::Set | Action::Type, None) => return Err(PageError::NoValue),
+        (PageAction::Set | PageAction::Type, None) => return Err(PageError::NoValue),
     }
     Ok(())
 }

@@ -7,7 +7,7 @@ use super::listener::{tell, tell_with};
 use crate::window::for_page::{Interface, SessionError, captured, path_text, save, shown_run, subject};
 use crate::window::ui::capture_state::MAX_PICTURES;
 use crate::window::ui::{CaptureOrder, Notice, SessionCommand};
-use motion_lab_sim::capture::{CaptureError, Film, Form, Paper, TICK_HUNDREDTHS};
+use motion_lab_sim::capture::{CaptureError, CaptureForm, Film, Paper, TICK_HUNDREDTHS};
 use motion_lab_sim::simulation::Transport;
 
 /// Carries out the commands that need a dialog in a window: gives the page the file to save, or asks it for one to
@@ -76,9 +76,9 @@ fn capture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> 
     let ui = &world.resource::<Interface>().0;
     let CaptureOrder { form, width, scale, span } = *order;
     let name = format!("{}.{}", ui.widget.id(), form.extension());
-    let Some(subject) = subject(ui, form)?.filter(|_| form == Form::Gif) else {
+    let Some(subject) = subject(ui, form)?.filter(|_| form == CaptureForm::Gif) else {
         let svg = picture(world, width)?;
-        let dots = (form == Form::Png).then_some(scale);
+        let dots = (form == CaptureForm::Png).then_some(scale);
         tell_with(&json!({ "kind": "file", "name": name, "scale": dots }), Some(svg.as_bytes()));
         return Ok(format!("{name}: captured"));
     };

@@ -2,12 +2,12 @@
 
 use std::cell::RefCell;
 
-use super::message::Asked;
+use super::message::PageRequest;
 
 /// An item from the page.
 pub enum Incoming {
     /// A request.
-    Message(Asked),
+    Message(PageRequest),
     /// A file to open.
     File {
         /// Its name.
@@ -20,7 +20,7 @@ pub enum Incoming {
 }
 
 /// Largest number of items that wait. A page sends a few in a frame, and a frame takes them all.
-const MOST_WAITING: usize = 1000;
+const MAX_WAITING: usize = 1000;
 
 thread_local! {
     static INBOX: RefCell<Vec<Incoming>> = const { RefCell::new(Vec::new()) };
@@ -40,7 +40,7 @@ pub fn take_all() -> Vec<Incoming> {
 /// Puts something in. Returns whether there was room.
 pub fn put(incoming: Incoming) -> bool {
     let has_room = INBOX.with_borrow_mut(|inbox| {
-        let has_room = inbox.len() < MOST_WAITING;
+        let has_room = inbox.len() < MAX_WAITING;
         inbox.extend(has_room.then_some(incoming));
         has_room
     });

@@ -16,20 +16,20 @@ use super::controls::{Staged, Touched, receive};
 use super::downloads::files;
 use super::inbox::{Incoming, put, wake, wake_by};
 use super::listener::{listen, tell};
-use super::message::{Asked, Message};
+use super::message::{Message, PageRequest};
 use super::report::{LinkedTheme, Sent, report};
 use super::run_link::open_link;
-use crate::web::link::{Link, LinkError, retold};
+use crate::web::link::{Link, LinkError, requoted};
 use crate::window::for_page::{Interface, limit, windowed_app};
 use crate::window::ui::{Notice, Settings, Widget};
 use motion_lab_core::configuration::Configuration as _;
 use motion_lab_sim::simulation::{Playback, Transport};
 
 /// Largest mark of a request, bytes.
-const MOST_OF_MARK: usize = 100;
+const MAX_OF_MARK: usize = 100;
 
 /// Largest message, bytes.
-const MOST_BYTES: usize = 65_536;
+const MAX_BYTES: usize = 65_536;
 
 /// Value of `STILL` while the page is hidden. `STILL` is the number of frames to come in which no time passes.
 const AWAY: u32 = u32::MAX;
@@ -57,7 +57,7 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
     let before = receive.after(EguiPreUpdateSet::ProcessInput).before(EguiPreUpdateSet::BeginPass);
     // settings that can't be read, such as another version's, give way to the defaults
     let settings = serde_json::from_str(settings).unwrap_or_default();
-    app.insert_resource(Start { link, embedded, settings })
+    app.insert_resource(StartArguments { link, embedded, settings })
         .init_resource::<Sent>()
         .init_resource::<Staged>()
         .init_resource::<Touched>()
@@ -69,18 +69,18 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
         .run();
 }
 
-/// Sends the lab a message: JSON of an [`Asked`].
+/// Sends the lab a message: JSON of an [`PageRequest`].
 ///
 /// # Errors
 /// The reason, when it is no message, it or its mark is too long, or too many wait.
 #[wasm_bindgen]
 pub fn lab_send(message: &str) -> Result<(), JsError> {
-    if message.len() > MOST_BYTES {
-        return Err(JsError::new(&format!("a message of {} bytes; the lab takes up to {MOST_BYTES}", message.len())));
+    if message.len() > MAX_BYTES {
+        return Err(JsError::new(&format!("a message of {} bytes; the lab takes up to {MAX_BYTES}", message.len())));
     }
-    let asked: Asked = serde_json::from_str(message).map_err(|e| JsError::new(&e.to_string()))?;
-    if asked.request.as_ref().is_some_and(|mark| mark.len() > MOST_OF_MARK) {
-        return Err(JsError::new(&format!("request: a mark has up to {MOST_OF_MARK} bytes")));
+    let asked: PageRequest = serde_json::from_str(message).map_err(|e| JsError::new(&e.to_string()))?;
+    if asked.request.as_ref().is_some_and(|mark| mark.len() > MAX_OF_MARK) {
+        return Err(JsError::new(&format!("request: a mark has up to {MAX_OF_MARK} bytes")));
     }
     match asked.message {
         // no frame may come until the page is seen again
@@ -115,14 +115,14 @@ fn take_in(incoming: Incoming) -> Result<(), JsError> {
 
 /// The arguments of `lab_start`, kept for the start of the app.
 #[derive(Resource)]
-struct Start {
+struct StartArguments {
     link: Result<Link, LinkError>,
     embedded: bool,
     settings: Settings,
 }
 
 fn start(world: &mut World) {
-    let Some(Start { link, embedded, settings }) = world.remove_resource() else { return };
+    let Some(StartArguments { link, embedded, settings }) = world.remove_resource() else { return };
     let (link, mut refused) = match link {
         Ok(link) => (link, None),
         Err(error) => (Link::default(), Some(Notice { text: format!("the link: {error}"), is_error: true })),
@@ -159,7 +159,7 @@ fn start(world: &mut World) {
     if link != (Link { widget, lesson, tab, q, theme, ..Link::default() }) {
         let notice = match open_link(world, &link) {
             Ok(notice) => notice,
-            Err(error) => Some(Notice { text: format!("the link: {}", retold(&error)), is_error: true }),
+            Err(error) => Some(Notice { text: format!("the link: {}", requoted(&error)), is_error: true }),
         };
         if let Some(notice) = notice {
             world.resource_mut::<Interface>().0.say(notice);

@@ -6,7 +6,7 @@ use motion_lab_sim::run::{Quantized, RobotInput};
 
 /// A request, with what stands beside it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-pub struct Asked {
+pub struct PageRequest {
     /// What the page wants.
     #[serde(flatten)]
     pub message: Message,
@@ -28,7 +28,7 @@ pub enum Message {
         /// Its number.
         id: String,
         /// The action.
-        action: Action,
+        action: PageAction,
         /// The number or text, where the action takes one.
         #[serde(default)]
         value: Option<String>,
@@ -184,7 +184,7 @@ impl Input {
 /// An action on a widget.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Action {
+pub enum PageAction {
     /// Press it.
     Click,
     /// Give it the focus.

@@ -48,7 +48,7 @@ pub struct LinkedTheme {
 }
 
 /// The settings that the page keeps. A link's paper is not among them until the reader chooses another.
-fn kept_settings(world: &mut World) -> Settings {
+fn saved_settings(world: &mut World) -> Settings {
     let mut settings = world.resource::<Interface>().0.settings.clone();
     match world.get_resource::<LinkedTheme>() {
         Some(linked) if linked.theme == settings.theme => settings.theme = linked.own,
@@ -85,7 +85,7 @@ pub fn report(world: &mut World) {
             tell(&lesson);
             sent.lesson = lesson;
         }
-        let settings = kept_settings(world);
+        let settings = saved_settings(world);
         if sent.settings.as_ref() != Some(&settings) {
             tell(&json!({ "kind": "settings", "settings": settings }));
             sent.settings = Some(settings);
@@ -171,10 +171,10 @@ fn state(world: &World) -> Value {
 fn plan(plan: &PlanState) -> Value {
     let task = plan.task();
     let (stage, why) = match plan.stage() {
-        crate::window::ui::plan::Stage::Growing => ("growing", None),
-        crate::window::ui::plan::Stage::Solved => ("solved", None),
-        crate::window::ui::plan::Stage::Ended(reason) => ("ended", Some(reason.to_string())),
-        crate::window::ui::plan::Stage::Read(_) => ("read", None),
+        crate::window::ui::plan::PlanStage::Growing => ("growing", None),
+        crate::window::ui::plan::PlanStage::Solved => ("solved", None),
+        crate::window::ui::plan::PlanStage::Ended(reason) => ("ended", Some(reason.to_string())),
+        crate::window::ui::plan::PlanStage::Read(_) => ("read", None),
     };
     json!({
         "planner": plan.planner().id(), "robot": task.name, "world": task.world.name,

@@ -12,21 +12,21 @@ use super::clipboard::Clipboard;
 use super::files::name;
 use crate::capture::{film_with_robots, paint, write};
 use crate::window::captured::{captured, subject};
-use crate::window::runs::shown_run;
+use crate::window::run_files::shown_run;
 use crate::window::ui::{CaptureOrder, Interface, Notice, UiState, Widget, Working};
-use motion_lab_sim::capture::{CaptureError, Form, Paper};
+use motion_lab_sim::capture::{CaptureError, CaptureForm, Paper};
 use motion_lab_sim::simulation::Transport;
 use motion_lab_sim::tour::TourConfig;
 
 /// The capture under way.
 #[derive(Resource, Default)]
-pub struct Capturing(Option<Job>);
+pub struct Capturing(Option<CaptureJob>);
 
-struct Job {
+struct CaptureJob {
     to: Destination,
     /// The widget that is captured.
     widget: Widget,
-    progress: Arc<Progress>,
+    progress: Arc<CaptureProgress>,
     work: JoinHandle<Result<(), CaptureError>>,
 }
 
@@ -48,7 +48,7 @@ impl Destination {
 
 /// The progress of a capture: pictures done, pictures in all, and whether it is to stop.
 #[derive(Default)]
-struct Progress {
+struct CaptureProgress {
     done: AtomicU64,
     all: AtomicU64,
     stop: AtomicBool,
@@ -69,15 +69,15 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     let state = world.resource::<Interface>().0.clone();
     let widget = state.widget;
     // the file name's extension decides the format, where it names one
-    let form = Form::of(path).unwrap_or(order.form);
+    let form = CaptureForm::of(path).unwrap_or(order.form);
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
     let (tick, span) = (world.resource::<Transport>().tick, order.span);
     let frontier = world.resource::<Transport>().frontier;
     let run = shown_run(world, frontier);
-    let progress = Arc::new(Progress::default());
+    let progress = Arc::new(CaptureProgress::default());
     let (shared, to) = (Arc::clone(&progress), path.to_owned());
     let work = thread::spawn(move || {
-        if form == Form::Gif
+        if form == CaptureForm::Gif
             && let Some(subject) = subject(&state, form)?
         {
             let (kinds, log) = (run.kinds.clone(), run.record()?);
@@ -91,7 +91,7 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
         let figure = captured(&state, run, tick, paper.width_px())?;
         write(&figure, &paper, form, &to)
     });
-    begin(world, Job { to: Destination::File(path.to_owned()), widget, progress, work });
+    begin(world, CaptureJob { to: Destination::File(path.to_owned()), widget, progress, work });
 }
 
 /// Begins to copy the widget in front as it stands, and stops the capture under way. [`follow`] reports the outcome.
@@ -101,7 +101,7 @@ pub fn copy_picture(world: &mut World, order: &CaptureOrder) {
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
     let Transport { tick, frontier, .. } = *world.resource::<Transport>();
     let (run, clipboard) = (shown_run(world, frontier), world.resource::<Clipboard>().clone());
-    let progress = Arc::new(Progress::default());
+    let progress = Arc::new(CaptureProgress::default());
     let shared = Arc::clone(&progress);
     let work = thread::spawn(move || {
         let figure = captured(&state, run, tick, paper.width_px())?;
@@ -110,17 +110,17 @@ pub fn copy_picture(world: &mut World, order: &CaptureOrder) {
         }
         clipboard.put(&paint(&figure, &paper)?).map_err(CaptureError::Fault)
     });
-    begin(world, Job { to: Destination::Clipboard, widget, progress, work });
+    begin(world, CaptureJob { to: Destination::Clipboard, widget, progress, work });
 }
 
 /// Puts a job in place of the one under way, which is stopped.
-fn begin(world: &mut World, job: Job) {
+fn begin(world: &mut World, job: CaptureJob) {
     if let Some(before) = &world.resource::<Capturing>().0 {
         before.progress.stop.store(true, Ordering::Relaxed);
     }
     world.resource_mut::<Capturing>().0 = Some(job);
     let state = &mut world.resource_mut::<Interface>().into_inner().0;
-    state.hush();
+    state.dismiss_notice();
     state.working = Some(Working::default());
     follow(world);
 }

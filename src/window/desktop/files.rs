@@ -9,9 +9,9 @@ use bevy::ecs::world::World;
 use super::persistence::autosave::note_in_file;
 use crate::output::write_file;
 use crate::window::error::SessionError;
-use crate::window::runs::{open_log, open_path_text, open_world_text, path_text, save};
+use crate::window::run_files::{open_log, open_path_text, open_world_text, path_text, save};
 use crate::window::ui::{Interface, Notice, Widget};
-use motion_lab_sim::plans::MOST_PATH_BYTES;
+use motion_lab_sim::plans::MAX_PATH_BYTES;
 use motion_lab_sim::simulation::Transport;
 
 /// File extension of the lab's worlds.
@@ -21,10 +21,10 @@ pub const WORLD: &str = "ron";
 pub const PATH: &str = "json";
 
 /// Largest size of a log that the window opens, bytes.
-const MOST_BYTES: u64 = 1 << 30;
+const MAX_BYTES: u64 = 1 << 30;
 
 /// Largest size of a world file that the window opens, bytes.
-const MOST_WORLD: u64 = 32 << 20;
+const MAX_WORLD: u64 = 32 << 20;
 
 /// Saves the run as far as it has come: its log, recorded from seed, configuration and script, whole or not at all.
 /// Returns what came of it; nothing yet where it takes long and goes on in the background.
@@ -92,8 +92,8 @@ fn note_recent(world: &mut World, path: &Path) {
 
 fn open(world: &mut World, path: &Path) -> Result<Option<Notice>, SessionError> {
     let length = fs::metadata(path)?.len();
-    if length > MOST_BYTES {
-        return Err(SessionError::TooLarge { found: length, most: MOST_BYTES });
+    if length > MAX_BYTES {
+        return Err(SessionError::TooLarge { found: length, most: MAX_BYTES });
     }
     let said = open_log(world, &name(path), &fs::read(path)?)?;
     // the file's input, as long as the reader adds none
@@ -106,8 +106,8 @@ fn open(world: &mut World, path: &Path) -> Result<Option<Notice>, SessionError> 
 pub fn open_world(world: &mut World, path: &Path) -> Notice {
     let refused = |error: String| Notice { text: format!("{}: not opened: {error}", path.display()), is_error: true };
     match fs::metadata(path) {
-        Ok(about) if about.len() > MOST_WORLD => {
-            return refused(format!("{} bytes: a world file has at most {MOST_WORLD}", about.len()));
+        Ok(about) if about.len() > MAX_WORLD => {
+            return refused(format!("{} bytes: a world file has at most {MAX_WORLD}", about.len()));
         }
         Ok(_) => {}
         Err(error) => return refused(error.to_string()),
@@ -161,8 +161,8 @@ pub fn open_path(world: &mut World, path: &Path) -> Notice {
 fn read_path(world: &mut World, path: &Path) -> Notice {
     let refused = |error: String| Notice { text: format!("{}: not opened: {error}", path.display()), is_error: true };
     match fs::metadata(path) {
-        Ok(about) if about.len() > MOST_PATH_BYTES as u64 => {
-            refused(format!("{} bytes: a path's file has at most {MOST_PATH_BYTES}", about.len()))
+        Ok(about) if about.len() > MAX_PATH_BYTES as u64 => {
+            refused(format!("{} bytes: a path's file has at most {MAX_PATH_BYTES}", about.len()))
         }
         Ok(_) => match fs::read_to_string(path) {
             Ok(text) => open_path_text(world, &name(path), &text),

@@ -70,7 +70,7 @@ fn the_dashboard_is_captured_with_seed_and_digest() {
     harness.get_by_label("GIF: from tick");
     asked = order(&mut harness);
     assert_eq!((asked.span.from, asked.span.to), (0, tick));
-    asked.span = motion_lab_sim::capture::Span { from: 4, to: 12, every: 4 };
+    asked.span = motion_lab_sim::capture::CaptureSpan { from: 4, to: 12, every: 4 };
     let path = folder.path().join("d.gif");
     let said = done(&mut harness, &asked, &path);
     assert!(!said.is_error, "{said:?}");
@@ -159,7 +159,7 @@ fn the_picture_in_front_is_copied_as_it_would_be_captured() {
         assert!(image.width == 640 && image.rgb == pixels, "{widget}: the same pixels as in the file");
     }
     // the menu copies at once
-    interface_mut(&mut harness).hush();
+    interface_mut(&mut harness).dismiss_notice();
     harness.state_mut().app.world_mut().insert_resource(Clipboard::by(|_| Ok(())));
     click(&mut harness, "Copy picture");
     while ui(&harness).working.is_some() {
@@ -189,7 +189,7 @@ fn what_does_not_move_or_is_not_in_the_run_is_refused_in_place() {
     click(&mut harness, "Space");
     click(&mut harness, "Capture");
     let mut asked = order(&mut harness);
-    asked.span = motion_lab_sim::capture::Span { from: 0, to: 8, every: 8 };
+    asked.span = motion_lab_sim::capture::CaptureSpan { from: 0, to: 8, every: 8 };
     (asked.width, asked.scale) = (640, 1);
     let config = harness.state().app.world().resource::<RunConfig>().0.clone();
     assert!(check(&config, &ui(&harness), &asked).is_ok());
@@ -219,7 +219,11 @@ fn a_capture_under_way_is_shown_and_stopped() {
     let path = folder.path().join("d.gif");
     let world = harness.state_mut().app.world_mut();
     world.init_resource::<Capturing>();
-    capture(world, &CaptureOrder { span: motion_lab_sim::capture::Span { every: 1, ..asked.span }, ..asked }, &path);
+    capture(
+        world,
+        &CaptureOrder { span: motion_lab_sim::capture::CaptureSpan { every: 1, ..asked.span }, ..asked },
+        &path,
+    );
     harness.run_steps(2);
     harness.get_by_label_contains("d.gif: ");
     click(&mut harness, "Stop");

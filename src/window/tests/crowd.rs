@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::window::session::new_run;
-use crate::window::ui::{Command, Crowd, CrowdState};
+use crate::window::ui::{Command, CrowdState, CrowdView};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::Warehouse;
@@ -87,8 +87,8 @@ fn the_crowd_that_is_shown_is_the_run_at_its_tick() {
     let crowd = app.resource::<Shown>().0.cockpits[0].crowd.clone().unwrap();
     let all = view(app);
     assert_eq!((crowd.now.len(), crowd.before.len()), (30, 30));
-    let footprint = |crowd: &Crowd, place| crowd.footprint(place).unwrap().0;
-    let earlier = Crowd { now: crowd.before.clone(), ..crowd.clone() };
+    let footprint = |crowd: &CrowdView, place| crowd.footprint(place).unwrap().0;
+    let earlier = CrowdView { now: crowd.before.clone(), ..crowd.clone() };
     for (place, robot) in all.iter().enumerate() {
         assert_eq!(footprint(&crowd, place), robot.footprint);
         assert_eq!(footprint(&earlier, place), robot.previous_footprint);

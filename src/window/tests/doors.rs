@@ -63,10 +63,10 @@ fn a_door_closed_for_a_tick_that_never_came_is_not_in_the_log() {
     pause(&mut harness);
     click(&mut harness, "close door C");
     assert_eq!(changes(&harness).len(), 1);
-    let (log, _) = crate::window::runs::recorded(harness.state().app.world()).unwrap();
+    let (log, _) = crate::window::run_files::recorded(harness.state().app.world()).unwrap();
     assert_eq!(log.recipe.script, Script::empty());
     click(&mut harness, "Step");
-    let (log, _) = crate::window::runs::recorded(harness.state().app.world()).unwrap();
+    let (log, _) = crate::window::run_files::recorded(harness.state().app.world()).unwrap();
     assert_eq!(log.recipe.script.changes, changes(&harness));
 }
 

@@ -87,7 +87,7 @@ fn its_run_is_saved_opened_and_captured() {
     let opened = open_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(!opened.is_error && opened.text.contains("bit-identical"), "{opened:?}");
     let world = harness.state().app.world();
-    let run = crate::window::runs::shown_run(world, 10);
+    let run = crate::window::run_files::shown_run(world, 10);
     let figure = crate::window::captured::captured(&world.resource::<Interface>().0, run, 4, 640.0).unwrap().figure;
     assert!(figure.panels[0].picture.items.iter().any(|item| item.name.contains("Tug")));
 }
@@ -96,7 +96,7 @@ fn its_run_is_saved_opened_and_captured() {
 fn the_atlas_names_and_draws_it() {
     let mut harness = lab_with_tugs();
     let world = harness.state_mut().app.world_mut();
-    let opened = crate::window::runs::open_world_text(world, "yard.ron", &yard().to_ron());
+    let opened = crate::window::run_files::open_world_text(world, "yard.ron", &yard().to_ron());
     assert!(!opened.is_error, "{opened:?}");
     harness.run_steps(3);
     let atlas = &mut harness.state_mut().app.world_mut().resource_mut::<Interface>().into_inner().0.atlas;
@@ -112,7 +112,7 @@ fn the_atlas_names_and_draws_it() {
 fn the_editor_moves_it_and_warns_of_its_start() {
     let mut harness = lab_with_tugs();
     let world = harness.state_mut().app.world_mut();
-    let opened = crate::window::runs::open_world_text(world, "yard.ron", &yard().to_ron());
+    let opened = crate::window::run_files::open_world_text(world, "yard.ron", &yard().to_ron());
     assert!(!opened.is_error, "{opened:?}");
     let atlas = &mut world.resource_mut::<Interface>().into_inner().0.atlas;
     let none: [&str; 0] = [];
@@ -138,7 +138,7 @@ fn the_editor_moves_it_and_warns_of_its_start() {
 fn of_a_kind_that_nobody_added_the_window_says_nothing_wrong() {
     let mut harness = lab(WIDE);
     let world = harness.state_mut().app.world_mut();
-    let opened = crate::window::runs::open_world_text(world, "yard.ron", &yard().to_ron());
+    let opened = crate::window::run_files::open_world_text(world, "yard.ron", &yard().to_ron());
     assert!(!opened.is_error, "{opened:?}");
     harness.run_steps(3);
     harness.get_by_label_contains("World Lot.");

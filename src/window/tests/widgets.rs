@@ -68,8 +68,8 @@ fn a_run_that_played_plays_on_when_the_dashboard_is_back() {
     click(&mut harness, "Play");
     front(&mut harness, "Query");
     let world = harness.state_mut().app.world_mut();
-    let (_, bytes) = super::super::runs::recorded(world).unwrap();
-    super::super::runs::open_log(world, "run", &bytes).unwrap();
+    let (_, bytes) = super::super::run_files::recorded(world).unwrap();
+    super::super::run_files::open_log(world, "run", &bytes).unwrap();
     harness.run_steps(3);
     front(&mut harness, "Drive");
     assert_eq!(playback(&harness), Playback::Paused);

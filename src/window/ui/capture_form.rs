@@ -6,9 +6,9 @@ use bevy_egui::egui::{
 
 use super::paint::button::LabButton;
 use super::paint::plate::refusal as refusal_words;
-use super::{CaptureOrder, Command, Dashboard, Look, SessionCommand, UiState};
+use super::{CaptureOrder, Command, Dashboard, FrameColours, SessionCommand, UiState};
 use motion_lab_core::picture::Role;
-use motion_lab_sim::capture::{CaptureError, Form, Span};
+use motion_lab_sim::capture::{CaptureError, CaptureForm, CaptureSpan};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::run::DT;
 
@@ -22,13 +22,19 @@ impl UiState {
     /// Opens the form. The proposed span of a GIF ends at the present tick, or at the last tick reached when that is 0.
     pub fn ask_for_capture(&mut self, model: &Dashboard) {
         let to = if model.tick > 0 { model.tick } else { model.frontier };
-        self.capture.order.span = Span { from: to.saturating_sub(SPAN), to, ..self.capture.order.span };
+        self.capture.order.span = CaptureSpan { from: to.saturating_sub(SPAN), to, ..self.capture.order.span };
         self.capture.open = true;
     }
 }
 
 /// Shows the form over everything else while it is open. Esc, its button or a click beside it closes it.
-pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn capture_form(
+    ctx: &Context,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     if !state.capture.open {
         return;
     }
@@ -64,7 +70,7 @@ pub fn capture_form(ctx: &Context, model: &Dashboard, look: &Look, state: &mut U
 }
 
 /// Shows the button that copies the widget as it stands, whatever the form. Returns whether it was pressed.
-pub(super) fn copy(ui: &mut Ui, look: &Look, order: &CaptureOrder, commands: &mut Vec<Command>) -> bool {
+pub(super) fn copy(ui: &mut Ui, look: &FrameColours, order: &CaptureOrder, commands: &mut Vec<Command>) -> bool {
     let button = LabButton::new("Copy picture").show(ui, look);
     let pressed = button.on_hover_text("puts the picture as it stands on the clipboard").clicked();
     if pressed {
@@ -73,10 +79,10 @@ pub(super) fn copy(ui: &mut Ui, look: &Look, order: &CaptureOrder, commands: &mu
     pressed
 }
 
-fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder) {
+fn choices(ui: &mut Ui, model: &Dashboard, look: &FrameColours, order: &mut CaptureOrder) {
     ui.label("form");
     ui.horizontal(|ui| {
-        for form in Form::ALL {
+        for form in CaptureForm::ALL {
             if LabButton::new(form.name()).selected(order.form == form).show(ui, look).clicked() {
                 order.form = form;
             }
@@ -92,7 +98,7 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
         }
     });
     ui.end_row();
-    if order.form != Form::Svg {
+    if order.form != CaptureForm::Svg {
         ui.label("dots a pixel");
         ui.horizontal(|ui| {
             for scale in 1..=3 {
@@ -103,10 +109,10 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
         });
         ui.end_row();
     }
-    if order.form == Form::Gif {
+    if order.form == CaptureForm::Gif {
         ui.label("ticks");
         ui.horizontal(|ui| {
-            let Span { from, to, every } = &mut order.span;
+            let CaptureSpan { from, to, every } = &mut order.span;
             for (name, value, least, most) in
                 [("from", from, 0, model.frontier), ("to", to, 0, model.frontier), ("every", every, 1, 1000)]
             {
@@ -126,7 +132,7 @@ fn choices(ui: &mut Ui, model: &Dashboard, look: &Look, order: &mut CaptureOrder
 
 /// The reason why the order cannot be carried out; `None` if it can.
 fn refusal(widget: Widget, order: &CaptureOrder, model: &Dashboard) -> Option<String> {
-    if order.form != Form::Gif {
+    if order.form != CaptureForm::Gif {
         return None;
     }
     if widget == Widget::Anatomy {
@@ -140,7 +146,7 @@ fn refusal(widget: Widget, order: &CaptureOrder, model: &Dashboard) -> Option<St
 
 /// A line about what the file will hold.
 fn holds(widget: Widget, order: &CaptureOrder) -> String {
-    if order.form == Form::Gif {
+    if order.form == CaptureForm::Gif {
         let (pictures, seconds) = (order.span.pictures(), DT * (order.span.to - order.span.from) as f64);
         return format!("{pictures} pictures, {seconds:.2} s of the run; seed, digest and ticks in its comment");
     }

@@ -1,6 +1,6 @@
 //! `CaptureState`, the state of the capture form, and `CaptureOrder`, the capture that it orders.
 
-use motion_lab_sim::capture::{Form, Span};
+use motion_lab_sim::capture::{CaptureForm, CaptureSpan};
 
 /// The most pictures of a GIF in a page, whose memory holds them all.
 #[cfg(target_family = "wasm")]
@@ -10,13 +10,13 @@ pub(crate) const MAX_PICTURES: u64 = 400;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CaptureOrder {
     /// The file format.
-    pub form: Form,
+    pub form: CaptureForm,
     /// Largest width of the sheet, pixels.
     pub width: u32,
     /// Dots for each pixel of the sheet.
     pub scale: u32,
     /// The ticks of a GIF.
-    pub span: Span,
+    pub span: CaptureSpan,
 }
 
 /// The state of the capture form.
@@ -30,7 +30,12 @@ pub struct CaptureState {
 
 impl Default for CaptureState {
     fn default() -> Self {
-        let order = CaptureOrder { form: Form::ALL[0], width: 1280, scale: 2, span: Span { from: 0, to: 0, every: 4 } };
+        let order = CaptureOrder {
+            form: CaptureForm::ALL[0],
+            width: 1280,
+            scale: 2,
+            span: CaptureSpan { from: 0, to: 0, every: 4 },
+        };
         CaptureState { open: false, order }
     }
 }

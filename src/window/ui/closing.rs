@@ -3,11 +3,11 @@
 use bevy_egui::egui::{Context, Id, Key, Modal, Modifiers, RichText, TextStyle};
 
 use super::paint::button::LabButton;
-use super::{Closing, Command, Look, SessionCommand, UiState, Widget};
+use super::{Closing, Command, FrameColours, SessionCommand, UiState, Widget};
 
 /// Shows the question over everything else. Escape and a click beside it keep the window open; so does saving one of
 /// the worlds, which asks for a file.
-pub fn closing(ctx: &Context, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn closing(ctx: &Context, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     if state.closing != Some(Closing::Asking) {
         return;
     }

@@ -11,7 +11,7 @@ use super::paint::icon::Icon;
 use super::paint::style::ScreenTheme;
 use super::time::transport_bar;
 use super::{
-    Command, Dashboard, Grasp, Look, UiState, anatomy, atlas, capture_form, cspace, help, lesson, menu, plan,
+    Command, Dashboard, FrameColours, Grasp, UiState, anatomy, atlas, capture_form, cspace, help, lesson, menu, plan,
     tasks_done,
 };
 use motion_lab_sim::manifest::Widget;
@@ -38,7 +38,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     let low = size.y < if state.is_touched { LOW_FOR_FINGERS } else { LOW } && size.x > size.y;
     let narrow = size.x < NARROW || low;
     state.is_narrow = narrow;
-    let look = Look::of(ui, state, narrow, low);
+    let look = FrameColours::of(ui, state, narrow, low);
     // where there is no height to spare, controls are as small as a mouse allows
     let mut style = look.theme.style(narrow && !low || state.is_touched);
     if state.has_reduced_motion() {
@@ -154,7 +154,14 @@ fn carry_out(action: Action, model: &Dashboard, state: &mut UiState, commands: &
 }
 
 /// Shows a button of this size for each widget.
-fn rail(ui: &mut Ui, model: &Dashboard, look: &Look, size: Vec2, state: &mut UiState, commands: &mut Vec<Command>) {
+fn rail(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    size: Vec2,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     ui.spacing_mut().button_padding = vec2(4.0, 2.0);
     ui.spacing_mut().interact_size.y = size.y;
     for widget in Widget::ALL {

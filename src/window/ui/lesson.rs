@@ -5,11 +5,11 @@ use super::dashboard::hand::drive;
 use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, PlanState, UiState};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_sim::anatomy::Tab;
-use motion_lab_sim::manifest::{Deed, Lesson, Widget};
+use motion_lab_sim::manifest::{HintTask, Lesson, Widget};
 use motion_lab_sim::simulation::TransportCommand;
 
 /// The least past that is dragged back over, ticks: two seconds.
-const LEAST_PAST: u64 = 40;
+const MIN_PAST: u64 = 40;
 
 impl UiState {
     /// Begins a lesson: its widget comes in front, as the next frame makes it ready.
@@ -38,9 +38,9 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
                 state.settings.world = world as u32;
             }
             // there has to be something to drag back over
-            if deed == Deed::DriveOn && model.frontier < LEAST_PAST && !model.playing {
+            if deed == HintTask::DriveOn && model.frontier < MIN_PAST && !model.playing {
                 commands.push(Command::from(TransportCommand::Play));
-            } else if deed == Deed::DriveOn && model.tick < LEAST_PAST {
+            } else if deed == HintTask::DriveOn && model.tick < MIN_PAST {
                 commands.push(Command::from(TransportCommand::Seek(model.frontier)));
             }
         }
@@ -65,29 +65,29 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
 }
 
 /// The kind of the robot that a lesson of the dashboard is about.
-fn kind_of(deed: Deed) -> Option<&'static str> {
+fn kind_of(deed: HintTask) -> Option<&'static str> {
     match deed {
-        Deed::TwoElbows | Deed::MoveArm => Some(RobotKind::REACH.name),
-        Deed::TwoHeadings => Some(RobotKind::HITCH.name),
-        Deed::Drive | Deed::DriveOn | Deed::Held => Some(RobotKind::RUSTY.name),
+        HintTask::TwoElbows | HintTask::MoveArm => Some(RobotKind::REACH.name),
+        HintTask::TwoHeadings => Some(RobotKind::HITCH.name),
+        HintTask::Drive | HintTask::DriveOn | HintTask::Held => Some(RobotKind::RUSTY.name),
         _ => None,
     }
 }
 
 /// The question of Query that a lesson is about.
-fn tab_of(deed: Deed) -> Tab {
+fn tab_of(deed: HintTask) -> Tab {
     match deed {
-        Deed::Near => Tab::Witness,
-        Deed::Hit | Deed::FreeEnds => Tab::Swept,
+        HintTask::Near => Tab::Witness,
+        HintTask::Hit | HintTask::FreeEnds => Tab::Swept,
         _ => Tab::Distance,
     }
 }
 
 /// What a click does in the atlas of a lesson.
-fn mode_of(deed: Deed) -> Mode {
+fn mode_of(deed: HintTask) -> Mode {
     match deed {
-        Deed::Coarsen => Mode::Measure,
-        Deed::PickWall | Deed::EditWorld => Mode::Edit,
+        HintTask::Coarsen => Mode::Measure,
+        HintTask::PickWall | HintTask::EditWorld => Mode::Edit,
         _ => Mode::Put,
     }
 }

@@ -1,6 +1,6 @@
 //! `LessonState`, the lesson under way.
 
-use motion_lab_sim::manifest::{Deed, Lesson};
+use motion_lab_sim::manifest::{HintTask, Lesson};
 
 /// The lesson under way.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ impl LessonState {
     }
 
     /// Takes in what was done in a frame, by `now` in seconds.
-    pub fn see(&mut self, done: &[Deed], now: f64) {
+    pub fn see(&mut self, done: &[HintTask], now: f64) {
         let began = *self.began.get_or_insert(now);
         let is_done = done.contains(&self.lesson.deed);
         if is_done && !self.was_done && self.took.is_none() {
@@ -41,14 +41,14 @@ mod tests {
     #[test]
     fn a_lesson_is_done_by_what_comes_after_its_beginning_and_once() {
         let mut under_way = LessonState::begun(Lesson::of("near").unwrap());
-        under_way.see(&[Deed::Near], 10.0);
+        under_way.see(&[HintTask::Near], 10.0);
         assert_eq!(under_way.took, None, "it was so from the start");
-        under_way.see(&[Deed::Touch], 12.0);
+        under_way.see(&[HintTask::Touch], 12.0);
         assert_eq!(under_way.took, None, "another task");
-        under_way.see(&[Deed::Touch, Deed::Near], 17.5);
+        under_way.see(&[HintTask::Touch, HintTask::Near], 17.5);
         assert_eq!(under_way.took, Some(7.5));
         under_way.see(&[], 20.0);
-        under_way.see(&[Deed::Near], 30.0);
+        under_way.see(&[HintTask::Near], 30.0);
         assert_eq!(under_way.took, Some(7.5), "the first time counts");
     }
 }

@@ -5,9 +5,9 @@ use bevy_egui::egui::{Align, Align2, Context, Id, Label, Layout, Rect, Ui, vec2}
 use super::keys::{SessionAction, hint, keys_of};
 use super::paint::button::LabButton;
 use super::paint::icon::Icon;
-use super::paint::plate::{Place, plate, refusal};
+use super::paint::plate::{PlateAnchor, plate, refusal};
 use super::paint::{fold, frame};
-use super::{Command, Dashboard, Look, Notice, SessionCommand, UiState, Widget, WidgetText};
+use super::{Command, Dashboard, FrameColours, Notice, SessionCommand, UiState, Widget, WidgetText};
 use motion_lab_sim::manifest::ThemeChoice;
 use motion_lab_sim::simulation::TransportCommand;
 
@@ -24,7 +24,7 @@ pub fn act(action: SessionAction, model: &Dashboard, state: &mut UiState, comman
         }
         SessionAction::Redo => {
             commands.push(Command::from(TransportCommand::Redo));
-            state.hush();
+            state.dismiss_notice();
         }
         SessionAction::Save => commands.push(Command::Session(SessionCommand::Save)),
         SessionAction::Open => commands.push(Command::Session(SessionCommand::Open)),
@@ -42,7 +42,7 @@ pub fn act(action: SessionAction, model: &Dashboard, state: &mut UiState, comman
 }
 
 /// Largest width of a notice, points.
-const MOST_NOTICE: f32 = 560.0;
+const MAX_NOTICE: f32 = 560.0;
 
 /// Shows a widget's title, and at the right end its menu; on the dashboard with undo, redo and the plots beside it. On
 /// an upright narrow screen, where the picture comes first, the title is its name alone.
@@ -50,7 +50,7 @@ pub fn header(
     ui: &mut Ui,
     words: &WidgetText,
     model: &Dashboard,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -75,12 +75,18 @@ pub fn header(
 }
 
 /// Shows the menu with everything in it.
-pub fn menu_button(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn menu_button(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     fold::menu(ui, "Menu", |ui| menu(ui, model, &[], look, state, commands));
 }
 
 /// Whether words stand under the picture, one screen below the other.
-fn is_upright(look: &Look) -> bool {
+fn is_upright(look: &FrameColours) -> bool {
     look.narrow && !look.low
 }
 
@@ -90,7 +96,7 @@ pub fn head(
     ui: &mut Ui,
     words: &WidgetText,
     model: &Dashboard,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -105,7 +111,7 @@ pub fn head(
 }
 
 /// Shows at the end of the words under a picture what [`head`] leaves out on an upright narrow screen.
-pub fn foot(ui: &mut Ui, words: &WidgetText, look: &Look, state: &mut UiState) {
+pub fn foot(ui: &mut Ui, words: &WidgetText, look: &FrameColours, state: &mut UiState) {
     if is_upright(look) {
         ui.add_space(10.0);
         // once a lesson is done it stands above
@@ -152,7 +158,7 @@ fn menu(
     ui: &mut Ui,
     model: &Dashboard,
     elsewhere: &[Tool],
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -178,7 +184,14 @@ fn menu(
     }
 }
 
-fn show(ui: &mut Ui, tool: &Tool, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn show(
+    ui: &mut Ui,
+    tool: &Tool,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let Tool { label, icon, action, has_keys } = *tool;
     let keys = if has_keys { keys_of(action) } else { String::new() };
     let button = LabButton::new(label).keys(&keys);
@@ -219,7 +232,7 @@ fn is_read(ui: &Ui, notice: &Notice) -> bool {
 /// Shows the work in the background and the last notice of the widget in front, with links to stop the one and dismiss
 /// the other; over the run, also the offer of the run before. They lie over the foot of the `stage`, so that nothing
 /// moves when they come and go.
-pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
+pub fn notice(ctx: &Context, stage: Rect, look: &FrameColours, state: &mut UiState) {
     let offers = state.widget == Widget::Dashboard && state.offer.is_some();
     if state.notice().is_none_or(|notice| notice.is_error) {
         // the same words said anew stand as long again
@@ -228,8 +241,8 @@ pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
     if state.working.is_none() && state.notice().is_none() && !offers {
         return;
     }
-    let width = (stage.width() - 24.0).min(MOST_NOTICE);
-    let place = Place { at: stage.center_bottom() - vec2(0.0, 6.0), pivot: Align2::CENTER_BOTTOM, width };
+    let width = (stage.width() - 24.0).min(MAX_NOTICE);
+    let place = PlateAnchor { at: stage.center_bottom() - vec2(0.0, 6.0), pivot: Align2::CENTER_BOTTOM, width };
     let put_away = plate(ctx, "notice", place, true, look, |ui| {
         if let Some(working) = &mut state.working {
             frame::rows_of_words(ui, |ui| {
@@ -262,6 +275,6 @@ pub fn notice(ctx: &Context, stage: Rect, look: &Look, state: &mut UiState) {
         ctx.request_repaint_after_secs(0.2);
     }
     if put_away {
-        state.hush();
+        state.dismiss_notice();
     }
 }

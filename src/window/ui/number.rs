@@ -33,7 +33,7 @@ pub fn no_number(text: &str) -> String {
 /// What is typed into a number field: its parser, which egui calls once the text is entered.
 ///
 /// An angle is wrapped. Any other number is clamped by the field to its range. Escape leaves the number as it was.
-pub struct Typed {
+pub struct NumberInput {
     range: RangeInclusive<f64>,
     is_angle: bool,
     /// Whether a field was left by Escape in this frame or the one before, in which egui still enters its text.
@@ -41,7 +41,7 @@ pub struct Typed {
     why: RefCell<Option<String>>,
 }
 
-impl Typed {
+impl NumberInput {
     /// What is typed into a field of this range, which may be that of an angle on a circle.
     pub fn new(ui: &Ui, range: RangeInclusive<f64>, is_angle: bool) -> Self {
         let (id, now) = (Id::new("a number field was escaped"), ui.ctx().cumulative_pass_nr());
@@ -50,7 +50,7 @@ impl Typed {
         }
         let escaped: Option<u64> = ui.data(|data| data.get_temp(id));
         let is_escaped = escaped.is_some_and(|then| now - then <= 1);
-        Typed { range, is_angle, is_escaped, why: RefCell::default() }
+        NumberInput { range, is_angle, is_escaped, why: RefCell::default() }
     }
 
     /// The number that is entered; `None` leaves it as it was.
@@ -128,8 +128,8 @@ mod tests {
 
     #[test]
     fn an_angle_is_wrapped_and_a_length_out_of_range_is_said() {
-        let typed = |is_angle| Typed { range: -PI..=PI, is_angle, is_escaped: false, why: RefCell::default() };
-        let said = |typed: &Typed| typed.why.borrow().clone();
+        let typed = |is_angle| NumberInput { range: -PI..=PI, is_angle, is_escaped: false, why: RefCell::default() };
+        let said = |typed: &NumberInput| typed.why.borrow().clone();
         let angle = typed(true);
         // three quarters of a turn to the left are a quarter to the right
         assert_eq!((angle.read("3pi/2"), said(&angle)), (Some(-FRAC_PI_2), None));
@@ -139,7 +139,7 @@ mod tests {
         assert_eq!(length.read("-4"), Some(-4.0));
         assert_eq!(said(&length).as_deref(), Some("\u{201c}-4\u{201d} is less than the least, \u{2212}3.1416."));
         assert_eq!((length.read("2"), said(&length)), (Some(2.0), None));
-        let escaped = Typed { is_escaped: true, ..typed(false) };
+        let escaped = NumberInput { is_escaped: true, ..typed(false) };
         assert_eq!((escaped.read("2"), escaped.read("abc"), said(&escaped)), (None, None, None));
     }
 }

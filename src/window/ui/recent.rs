@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Largest number of files in the list.
-const MOST: usize = 8;
+const MAX_FILES: usize = 8;
 
 /// The files opened or saved last, the newest first, each once.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -18,7 +18,7 @@ impl Recent {
     }
 
     /// The list as it is kept. Paths that are no text are not.
-    pub fn kept(&self) -> Vec<String> {
+    pub fn saved(&self) -> Vec<String> {
         self.0.iter().filter_map(|path| path.to_str().map(str::to_owned)).collect()
     }
 
@@ -33,7 +33,7 @@ impl Recent {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.0.retain(|other| *other != path);
         self.0.insert(0, path);
-        self.0.truncate(MOST);
+        self.0.truncate(MAX_FILES);
     }
 
     /// Takes a file off the list.
@@ -53,9 +53,9 @@ mod tests {
             recent.put_first(Path::new(&format!("/runs/{i}.mcap")));
         }
         recent.put_first(Path::new("/runs/4.mcap"));
-        let names = |recent: &Recent| recent.kept().join(" ").replace("/runs/", "").replace(".mcap", "");
+        let names = |recent: &Recent| recent.saved().join(" ").replace("/runs/", "").replace(".mcap", "");
         assert_eq!(names(&recent), "4 9 8 7 6 5 3 2");
-        assert_eq!(Recent::of(&recent.kept()), recent);
+        assert_eq!(Recent::of(&recent.saved()), recent);
         recent.remove(Path::new("/runs/8.mcap"));
         assert_eq!(names(&recent), "4 9 7 6 5 3 2");
         // another folder of the same name's file is another file

@@ -3,11 +3,11 @@
 use bevy_egui::egui::Ui;
 
 use super::paint::button::LabButton;
-use super::{Command, Look, Recent, SessionCommand};
+use super::{Command, FrameColours, Recent, SessionCommand};
 
 /// Shows the list as a menu of its own, by the names of the files, with their folders on hover. Without files there is
 /// none.
-pub fn recent_menu(ui: &mut Ui, recent: &Recent, look: &Look, commands: &mut Vec<Command>) {
+pub fn recent_menu(ui: &mut Ui, recent: &Recent, look: &FrameColours, commands: &mut Vec<Command>) {
     if recent.files().is_empty() {
         return;
     }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use motion_lab_sim::manifest::{Deed, ThemeChoice, Widget};
+use motion_lab_sim::manifest::{HintTask, ThemeChoice, Widget};
 
 /// The user's settings. They are no part of a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, bevy::reflect::Reflect)]
@@ -56,12 +56,12 @@ impl Settings {
     }
 
     /// Whether the reader has done this.
-    pub fn is_ticked_off(&self, deed: Deed) -> bool {
+    pub fn is_ticked_off(&self, deed: HintTask) -> bool {
         self.done.contains(&deed.id())
     }
 
     /// Keeps that the reader has done this.
-    pub fn tick_off(&mut self, deed: Deed) {
+    pub fn tick_off(&mut self, deed: HintTask) {
         if !self.is_ticked_off(deed) {
             self.done.push(deed.id());
         }

@@ -6,13 +6,13 @@ use bevy_egui::egui::Rect;
 
 use super::atlas::Mode;
 use super::paint::camera::Camera;
-use super::time::span::Span;
+use super::time::span::TickSpan;
 use super::{AtlasState, CockpitRobot, ParkingGoal, Settings, Widget};
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Shape};
 use motion_lab_core::picture::{Role, Theme};
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
-use motion_lab_sim::manifest::Deed;
+use motion_lab_sim::manifest::HintTask;
 
 /// The state of the user interface, as a resource of the app.
 #[derive(bevy::prelude::Resource, Default)]
@@ -46,7 +46,7 @@ pub struct UiState {
     /// What part of each world the dashboard shows, by the world's name.
     pub cameras: BTreeMap<String, Camera>,
     /// The part of the run that the time line shows; `None` for all of it.
-    pub span: Option<Span>,
+    pub span: Option<TickSpan>,
     /// Whether the dashboard's panes are more than fit the window, so that the wheel scrolls them.
     pub scrolls: bool,
     /// Whether the picture in front fills the window.
@@ -118,7 +118,7 @@ pub struct UiState {
     /// The lesson under way.
     pub lesson: Option<super::LessonState>,
     /// What the reader did in this frame that hints ask for.
-    pub did: Vec<Deed>,
+    pub did: Vec<HintTask>,
 }
 
 /// Work in the background.
@@ -240,7 +240,7 @@ impl UiState {
     }
 
     /// Dismisses the message of the widget in front.
-    pub fn hush(&mut self) {
+    pub fn dismiss_notice(&mut self) {
         self.notices.remove(&self.widget);
     }
 

@@ -4,13 +4,13 @@ use std::sync::Arc;
 
 use super::{Command, Dashboard, SessionCommand, UiState};
 use crate::window::ui::atlas::FIRST_CELL;
-use crate::window::ui::plan::Stage;
+use crate::window::ui::plan::PlanStage;
 use motion_lab_core::collision::EdgeVerdict;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, RobotKind};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::num::sin;
 use motion_lab_sim::anatomy::{Anatomy, Tab};
-use motion_lab_sim::manifest::{Deed, Widget};
+use motion_lab_sim::manifest::{HintTask, Widget};
 use motion_lab_sim::run::RobotInput;
 use motion_lab_sim::simulation::{RobotCommand, RunCommand, TransportCommand};
 
@@ -21,7 +21,7 @@ const ONE_TIP: f64 = 0.05;
 const NEAR: f64 = 0.02;
 
 /// Sine of the elbow's angle from which on an arm is bent to a side.
-const LEAST_BEND: f64 = 0.15;
+const MIN_BEND: f64 = 0.15;
 
 /// Ticks off what was done in this frame, by `now` in seconds: in a widget, as the widget in front shows it, and what
 /// was asked for.
@@ -41,40 +41,40 @@ pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], no
 
 /// The deeds that a command is; an arm may be moved `by_itself`, on its way to its other elbow, and the atlas's world
 /// may have lost a wall.
-fn asked(command: &Command, model: &Dashboard, by_itself: bool, has_lost_wall: bool) -> Vec<Deed> {
+fn asked(command: &Command, model: &Dashboard, by_itself: bool, has_lost_wall: bool) -> Vec<HintTask> {
     match command {
         Command::Run(RunCommand::Robot(RobotCommand { input, .. })) => match input {
             RobotInput::Drive(0, 0) => vec![],
-            RobotInput::Drive(..) if model.tick < model.frontier => vec![Deed::Drive, Deed::DriveOn],
-            RobotInput::Drive(..) => vec![Deed::Drive],
-            RobotInput::MoveTo(_) if !by_itself => vec![Deed::MoveArm],
+            RobotInput::Drive(..) if model.tick < model.frontier => vec![HintTask::Drive, HintTask::DriveOn],
+            RobotInput::Drive(..) => vec![HintTask::Drive],
+            RobotInput::MoveTo(_) if !by_itself => vec![HintTask::MoveArm],
             _ => vec![],
         },
-        Command::Run(RunCommand::Transport(TransportCommand::Reset)) => vec![Deed::Reset],
-        Command::Session(SessionCommand::PlayPath) => vec![Deed::PlayPath],
+        Command::Run(RunCommand::Transport(TransportCommand::Reset)) => vec![HintTask::Reset],
+        Command::Session(SessionCommand::PlayPath) => vec![HintTask::PlayPath],
         Command::Session(SessionCommand::RunWorld | SessionCommand::RunFromHere) if has_lost_wall => {
-            vec![Deed::EditWorld]
+            vec![HintTask::EditWorld]
         }
         _ => vec![],
     }
 }
 
 /// The deeds that the widget in front shows.
-fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
+fn shown(model: &Dashboard, state: &UiState) -> Vec<HintTask> {
     let is_asked = |deed| state.lesson.as_ref().is_some_and(|under_way| under_way.lesson.deed == deed);
     let is_open = |deed| !state.settings.is_ticked_off(deed) || is_asked(deed);
     let anatomy = &state.anatomy.anatomy;
-    let of = |deeds: &[(Deed, &dyn Fn() -> bool)]| {
+    let of = |deeds: &[(HintTask, &dyn Fn() -> bool)]| {
         deeds.iter().filter(|(deed, is_done)| is_open(*deed) && is_done()).map(|(deed, _)| *deed).collect()
     };
     match state.widget {
-        Widget::Cspace => of(&[(Deed::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
+        Widget::Cspace => of(&[(HintTask::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
         Widget::Atlas => of(&[
-            (Deed::Coarsen, &|| state.atlas.resolution > FIRST_CELL),
-            (Deed::PickWall, &|| state.atlas.has_picked_wall()),
+            (HintTask::Coarsen, &|| state.atlas.resolution > FIRST_CELL),
+            (HintTask::PickWall, &|| state.atlas.has_picked_wall()),
         ]),
-        Widget::Plan => of(&[(Deed::FindPath, &|| *state.plan.stage() == Stage::Solved)]),
-        Widget::Dashboard => of(&[(Deed::Held, &|| {
+        Widget::Plan => of(&[(HintTask::FindPath, &|| *state.plan.stage() == PlanStage::Solved)]),
+        Widget::Dashboard => of(&[(HintTask::Held, &|| {
             let mut robots = model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
             robots.any(|robot| robot.kind == RobotKind::RUSTY.name && robot.manual && robot.flash)
         })]),
@@ -84,7 +84,7 @@ fn shown(model: &Dashboard, state: &UiState) -> Vec<Deed> {
 
 /// What the reader has done between two moments of the query anatomy, a press and its release or a frame and the next:
 /// the robot was moved until it touches, the motion changed until it hits. Another world, robot or tab is no deed.
-pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<Deed> {
+pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<HintTask> {
     let is_same = Arc::ptr_eq(before.world(), now.world()) && before.checker().robot() == now.checker().robot();
     let hits = || now.sweep().is_ok_and(|sweep| matches!(sweep.verdict, EdgeVerdict::Hit { .. }));
     let is_moved = is_same && before.q() != now.q();
@@ -96,7 +96,8 @@ pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<Deed> {
     let hit = is_swept && is_stepped && hits();
     let has_free_ends = || now.sweep().is_ok_and(|sweep| sweep.from_free && sweep.to_free);
     let free_ends = is_swept && (is_stepped || is_moved) && hits() && has_free_ends();
-    let done = [(touch, Deed::Touch), (near, Deed::Near), (hit, Deed::Hit), (free_ends, Deed::FreeEnds)];
+    let done =
+        [(touch, HintTask::Touch), (near, HintTask::Near), (hit, HintTask::Hit), (free_ends, HintTask::FreeEnds)];
     done.into_iter().filter(|(is_done, _)| *is_done).map(|(_, deed)| deed).collect()
 }
 
@@ -109,7 +110,7 @@ fn have_one_tip(anatomy: &Anatomy, trace: &[AnyConfiguration]) -> bool {
     };
     // where the arm is straight or folded, a little to either side has nearly one tip
     let bend = |q: &AnyConfiguration| q.coordinates().last().map_or(0.0, |angle| sin(*angle));
-    let are_two = |a: f64, b: f64| a * b < 0.0 && a.abs() > LEAST_BEND && b.abs() > LEAST_BEND;
+    let are_two = |a: f64, b: f64| a * b < 0.0 && a.abs() > MIN_BEND && b.abs() > MIN_BEND;
     earlier.iter().any(|q| are_two(bend(q), bend(last)) && (tip(q) - tip(last)).norm() < ONE_TIP)
 }
 
@@ -154,14 +155,14 @@ mod tests {
         let of_robot = |input| Command::from(RobotCommand { robot: "Rusty".into(), input });
         let drive = |forward| of_robot(RobotInput::Drive(forward, 0));
         assert_eq!(asked(&drive(0), &now, false, false), [], "it was let go");
-        assert_eq!(asked(&drive(9), &now, false, false), [Deed::Drive]);
-        assert_eq!(asked(&drive(9), &before, false, false), [Deed::Drive, Deed::DriveOn]);
+        assert_eq!(asked(&drive(9), &now, false, false), [HintTask::Drive]);
+        assert_eq!(asked(&drive(9), &before, false, false), [HintTask::Drive, HintTask::DriveOn]);
         let moved = of_robot(RobotInput::MoveTo(vec![]));
         assert_eq!(asked(&moved, &now, true, false), [], "by itself");
-        assert_eq!(asked(&moved, &now, false, false), [Deed::MoveArm]);
+        assert_eq!(asked(&moved, &now, false, false), [HintTask::MoveArm]);
         let run = Command::Session(SessionCommand::RunWorld);
         assert_eq!(asked(&run, &now, false, false), [], "no wall was taken away");
-        assert_eq!(asked(&run, &now, false, true), [Deed::EditWorld]);
+        assert_eq!(asked(&run, &now, false, true), [HintTask::EditWorld]);
     }
 
     #[test]
@@ -175,10 +176,10 @@ mod tests {
             of(&mut anatomy);
             anatomy
         };
-        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -1.0))), [Deed::Hit, Deed::FreeEnds]);
-        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -0.4))), [Deed::Hit], "it ends in contact");
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -1.0))), [HintTask::Hit, HintTask::FreeEnds]);
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, -0.4))), [HintTask::Hit], "it ends in contact");
         assert_eq!(of_anatomy(&swept, &with(&|a| a.set_step(0, 0.01))), [], "a step that is free");
-        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_coordinate(1, 1.2))), [Deed::Touch]);
+        assert_eq!(of_anatomy(&swept, &with(&|a| a.set_coordinate(1, 1.2))), [HintTask::Touch]);
         assert_eq!(of_anatomy(&start, &start.clone().with_tab(Tab::Witness)), []);
         let witness = start.clone().with_tab(Tab::Witness);
         let bent = |th2: f64| {
@@ -187,9 +188,9 @@ mod tests {
             anatomy
         };
         // it touches below 1.4009: at 1.42 it is 7 mm off, at pi/2 61 mm
-        assert_eq!(of_anatomy(&witness, &bent(1.42)), [Deed::Near]);
+        assert_eq!(of_anatomy(&witness, &bent(1.42)), [HintTask::Near]);
         assert_eq!(of_anatomy(&witness, &bent(1.5)), []);
-        assert_eq!(of_anatomy(&witness, &bent(1.39)), [Deed::Touch]);
+        assert_eq!(of_anatomy(&witness, &bent(1.39)), [HintTask::Touch]);
         let thick = with(&|a| a.set_thick_links(true));
         assert_eq!(of_anatomy(&thick, &with(&|a| a.set_coordinate(1, 1.2))), [], "another robot");
     }

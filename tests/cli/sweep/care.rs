@@ -21,7 +21,7 @@ fn an_advice_leads_on() {
         assert!(refused.contains(&format!("{}: it is named twice", twice[1])), "{refused}");
     }
     let csv = run_in(at, &["sweep", "report", "all.csv", "-o", "all.html"]).failed(3);
-    assert!(csv.contains("does not hold its plan") && csv.contains("Name the table that ends in .parquet"), "{csv}");
+    assert!(csv.contains("does not hold its study") && csv.contains("Name the table that ends in .parquet"), "{csv}");
     for output in ["nowhere/all.csv", "nowhere/all.parquet"] {
         let refused = run_in(at, &["sweep", "merge", "parts", "-o", output]).failed(1);
         assert!(refused.contains(output) && refused.contains("Make its folder first"), "{refused}");
@@ -42,7 +42,7 @@ fn an_advice_leads_on() {
         }
     };
     refused(b"");
-    // another seed in the plan is another plan, if it was written so; here the seal says that it was not
+    // another seed in the study is another study, if it was written so; here the seal says that it was not
     let mut other = whole.clone();
     let seed = whole.windows(5).position(|five| five == b"[0,3]").unwrap();
     other[seed + 1] = b'1';
@@ -60,8 +60,8 @@ fn an_advice_leads_on() {
 
 #[test]
 fn a_name_that_is_wrong_has_its_place_in_the_plan() {
-    let plan = "Sweep(version: 1,\n  worlds: [\"lot\", \"lott\"])";
-    let folder = folder_with(plan);
+    let study = "Sweep(version: 1,\n  worlds: [\"lot\", \"lott\"])";
+    let folder = folder_with(study);
     let at = folder.path();
     let said = run_in(at, &["sweep", "plan.ron", "--check"]).failed(3);
     assert!(said.contains("plan.ron:2:19: lott: no built-in world has this name"), "{said}");
@@ -156,9 +156,9 @@ fn an_estimate_is_of_its_shard() {
 
 #[test]
 fn a_report_links_to_the_runs_that_a_link_can_hold() {
-    let plan = "Sweep(version: 1, axes: [(vary: \"world\", over: Names([\"lot\", \"own.ron\"])), \
+    let study = "Sweep(version: 1, axes: [(vary: \"world\", over: Names([\"lot\", \"own.ron\"])), \
                 (vary: \"seed\", over: Range(5, 7)), (vary: \"ticks\", over: Values([30]))])";
-    let folder = folder_with(plan);
+    let folder = folder_with(study);
     let at = folder.path();
     let lot = run_in(at, &["world", "show", "apartment"]).done();
     fs::write(at.join("own.ron"), lot.replacen("\"Rusty\"", "\"Rosty\"", 1)).unwrap();
@@ -184,7 +184,7 @@ fn a_report_links_to_the_runs_that_a_link_can_hold() {
     assert!(worst.contains("is not an unmodified built-in world"), "{worst}");
     assert!(shown.contains("Varied: world (2 values), seed (2 values), ticks (1 value)."));
     assert!(page(&[]).contains("<a href=\"http://localhost:8000/?v=1&amp;"));
-    // parameters are called as the plan calls them, and `ticks` are no unit of `ticks`
+    // parameters are called as the study calls them, and `ticks` are no unit of `ticks`
     for title in
         ["<th title=\"varied by the plan\">world</th>", ">ticks</th>", ">seed</th>", ">least clearance, m</th>"]
     {
@@ -197,9 +197,9 @@ fn a_report_links_to_the_runs_that_a_link_can_hold() {
 
 #[test]
 fn a_report_calls_parameters_as_the_plan_does() {
-    let plan = "Sweep(version: 1, worlds: [\"apartment\"], ticks: 5, axes: [(vary: \"Rusty.noise.sigma_hit\", over: Values([0, 0.1])), \
+    let study = "Sweep(version: 1, worlds: [\"apartment\"], ticks: 5, axes: [(vary: \"Rusty.noise.sigma_hit\", over: Values([0, 0.1])), \
                 (vary: \"Rusty.noise.lambda_short\", over: Values([1]))])";
-    let folder = folder_with(plan);
+    let folder = folder_with(study);
     let at = folder.path();
     run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
     run_in(at, &["sweep", "merge", "parts", "-o", "all.parquet"]).done();

@@ -1,4 +1,4 @@
-//! `sweep` of a plan with a planner: the path that `plan` finds, the run that its script drives.
+//! `sweep` of a study with a planner: the path that `study` finds, the run that its script drives.
 
 use std::fs;
 
@@ -54,7 +54,7 @@ fn a_row_is_the_path_that_plan_finds_and_the_run_that_its_script_drives() {
         let answer = json(alone.out.lines().next().unwrap());
         assert_eq!(row("solved"), if answer["solved"] == true { "1" } else { "0" }, "{}", alone.err);
         if answer["solved"] == false {
-            // the reason is that of `plan`
+            // the reason is that of `study`
             assert_eq!(row("failure"), answer["reason"].as_str().unwrap().replace(',', ";"));
             assert_eq!((row("digest"), row("planned_path_rad"), row("contacts")), Default::default());
             bounded += u64::from(row("iterations") == "3");
@@ -70,7 +70,7 @@ fn a_row_is_the_path_that_plan_finds_and_the_run_that_its_script_drives() {
         ] {
             assert_eq!(row(column).parse::<f64>().unwrap(), found.as_f64().unwrap(), "{column}");
         }
-        // the run is that of the script that `plan` writes
+        // the run is that of the script that `study` writes
         let record = ["record", "--world", "world.ron", "--script", "path.ron", "--seed", &seed];
         run_in(at, &[&record[..], &["--ticks", "600", "-o", "run.mcap"]].concat()).done();
         let info = json(&run_in(at, &["info", "--json", "run.mcap"]).done());
@@ -96,11 +96,11 @@ fn a_rover_and_a_car_are_planned_for_and_driven() {
         ("apartment", "Rusty", "[4.5, 2, 0]", "[0.03, 0.03, 4]"),
         ("lot", "Hitch", "[6.75, 7, -1.5707963]", "[0.1, 0.1, 0.05]"),
     ] {
-        let plan = format!(
+        let study = format!(
             "Sweep(version: 1, worlds: [\"{world}\"], planner: (), ticks: 600, \
              goal: (robot: \"{robot}\", at: {at}, within: {within}), axes: [(vary: \"seed\", over: Range(1, 3))])"
         );
-        let folder = folder_with(&plan);
+        let folder = folder_with(&study);
         let at = folder.path();
         run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
         run_in(at, &["sweep", "merge", "parts", "-o", "all.csv"]).done();
@@ -119,11 +119,11 @@ fn a_rover_and_a_car_are_planned_for_and_driven() {
 #[test]
 fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
     let goal = "goal: (robot: \"Rusty\", at: [4.5, 2, 0], within: [1, 1, 4])";
-    for (plan, place, reason) in [
+    for (study, place, reason) in [
         ("planner: (name: \"rrt-3\")", ":2:", "there is no planner \"rrt-3\"; there are rrt-connect, rrt, "),
         ("planner: ()", ":2:", "it needs a goal"),
-        (&format!("planner: (), {goal}, script: \"s.ron\""), ":2:", "planner: the plan has a script too"),
-        (&format!("{goal}, axes: [(vary: \"planner\", over: Names([\"rrt\"]))]"), ":2:", "the plan has no planner"),
+        (&format!("planner: (), {goal}, script: \"s.ron\""), ":2:", "planner: the study has a script too"),
+        (&format!("{goal}, axes: [(vary: \"planner\", over: Names([\"rrt\"]))]"), ":2:", "the study has no planner"),
         (
             &format!("planner: (), {goal}, axes: [(vary: \"script\", over: Names([\"s.ron\"]))]"),
             ":2:",
@@ -136,10 +136,10 @@ fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
             "planner.tube: 2 m: it must be from 0 to 1 m",
         ),
     ] {
-        let folder = folder_with(&format!("Sweep(version: 1,\n{plan})"));
+        let folder = folder_with(&format!("Sweep(version: 1,\n{study})"));
         fs::write(folder.path().join("s.ron"), "Script(version: 1, events: [])").unwrap();
         let said = run_in(folder.path(), &["sweep", "plan.ron", "--check"]).failed(3);
-        assert!(said.contains(&format!("plan.ron{place}")) && said.contains(reason), "{plan}: {said}");
+        assert!(said.contains(&format!("plan.ron{place}")) && said.contains(reason), "{study}: {said}");
     }
     // a car does not take a planner of straight lines: each of its rows says so
     let folder = folder_with(
@@ -148,7 +148,7 @@ fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
     );
     run_in(folder.path(), &["sweep", "plan.ron", "-o", "parts"]).done();
     let part = fs::read_to_string(folder.path().join("parts/part-1-of-1.sweep")).unwrap();
-    assert!(part.contains("it plans straight lines, which no car can drive"), "{part}");
+    assert!(part.contains("it studies straight lines, which no car can drive"), "{part}");
 }
 
 #[cfg(unix)]
@@ -170,8 +170,8 @@ fn a_planner_at_work_is_stopped() {
 #[test]
 fn the_examples_are_plans_whose_runs_can_be() {
     for (name, runs) in [("noise.ron", 1000), ("planners.ron", 300)] {
-        let plan = format!("{}/examples/sweeps/{name}", env!("CARGO_MANIFEST_DIR"));
-        let listed = run_in(&std::env::temp_dir(), &["sweep", &plan, "--check"]);
+        let study = format!("{}/examples/sweeps/{name}", env!("CARGO_MANIFEST_DIR"));
+        let listed = run_in(&std::env::temp_dir(), &["sweep", &study, "--check"]);
         assert!(listed.err.contains(&format!("{runs} runs, varying ")), "{}", listed.err);
         assert!(listed.err.contains("; 0 of those listed can't be run"), "{}", listed.err);
     }

@@ -1,6 +1,6 @@
 //! Two implementations of the collision questions that share no geometry code with the library: [`exact`], integer
 //! arithmetic without any rounding (and [`ray`], the same for scans), and [`plain`], everyday `f64` by other methods
-//! than the library's. [`seen`] does the same for scans of whole worlds.
+//! than the library's. [`seen`] does the same for scans of whole worlds, [`proof`] for certificates.
 //!
 //! They take placed shapes, each a list of core vertices and a radius, and nothing else from the library. [`arm`] gives
 //! them the kinematics of the Workbench's arm, written out, [`car`] that of a trailer. [`fixtures`] are shapes and
@@ -15,6 +15,7 @@ pub mod exact;
 pub mod fixtures;
 pub mod grazing;
 pub mod plain;
+pub mod proof;
 pub mod ray;
 pub mod seen;
 mod short;

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use motion_lab_core::geometry::Placed;
 use motion_lab_core::num::{sin_cos, sqrt};
 use motion_lab_core::prelude::*;
-use motion_lab_core::worlds::Written;
+use motion_lab_core::worlds::SourceShape;
 
 use crate::plain::{inside_by_crossings, point_distance};
 
@@ -168,9 +168,9 @@ pub fn things_of(world: &World) -> Vec<Seen> {
         }
     };
     let written = world.obstacles.iter().flat_map(|obstacle| obstacle.written());
-    let thing = |written: Written<'_>| match written {
-        Written::Outline(points) => Seen::Outline(points.to_vec()),
-        Written::Piece((pose, shape)) => piece(pose, shape),
+    let thing = |written: SourceShape<'_>| match written {
+        SourceShape::Outline(points) => Seen::Outline(points.to_vec()),
+        SourceShape::Piece((pose, shape)) => piece(pose, shape),
     };
     written.map(thing).collect()
 }

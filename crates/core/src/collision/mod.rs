@@ -17,7 +17,7 @@ mod surroundings;
 mod ties;
 mod witness;
 
-pub(crate) use boundary::grid::{Cells, Place};
+pub(crate) use boundary::grid::{Cells, GridCell};
 pub(crate) use boundary::segments::{Circle, LANES, SegmentSoup};
 #[doc(hidden)]
 pub use broad::index::Index;

@@ -1,7 +1,7 @@
 //! `Collision` for a `Scene`: the four queries.
 
 use super::motion::decide::verdict;
-use super::motion::separation::Way;
+use super::motion::separation::SweptHull;
 use super::motion::swept::{self, SWEEP};
 use super::narrow::pair::touches;
 use super::{Collision, ObstacleId, Scene, Witness};
@@ -44,7 +44,7 @@ impl Collision for Scene {
     }
 
     fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
-        Way::new(from, to).is_some_and(|way| way.clears(self, reach))
+        SweptHull::new(from, to).is_some_and(|way| way.clears(self, reach))
     }
 
     fn witness(&self, footprint: &Footprint) -> Option<Witness> {

@@ -7,9 +7,9 @@ use super::boundary::grid::Cells;
 use super::boundary::segments::SegmentSoup;
 use super::broad::frames::Frames;
 use super::broad::index::Index;
-use super::narrow::convex::Nearest;
+use super::narrow::convex::NearestPoints;
 use super::narrow::distance::depth;
-use super::narrow::nearest::Search;
+use super::narrow::nearest::NearestSearch;
 use super::narrow::pair::{pair, touch};
 use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, largest_coordinate};
 use crate::num::greater;
@@ -209,12 +209,12 @@ impl Scene {
     }
 
     /// A search for the piece nearest to `shape`, if any is nearer than `within`.
-    pub(super) fn search<'a>(&'a self, shape: &'a Placed, within: f64) -> Search<'a> {
-        Search::new(shape, &self.pieces, self.size, within)
+    pub(super) fn search<'a>(&'a self, shape: &'a Placed, within: f64) -> NearestSearch<'a> {
+        NearestSearch::new(shape, &self.pieces, self.size, within)
     }
 
     /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
-    pub(super) fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, Nearest)> {
+    pub(super) fn nearest_piece(&self, shape: &Placed, within: f64) -> Option<(usize, NearestPoints)> {
         let mut search = self.search(shape, within);
         self.index.nearest(&search.extent(), within, |piece| search.look(piece));
         search.found()

@@ -1,7 +1,7 @@
 //! `Surroundings`, a scene and other robots' footprints in it.
 
 use super::motion::conservative_advancement::march;
-use super::motion::separation::Way;
+use super::motion::separation::SweptHull;
 use super::motion::swept::{self, SWEEP};
 use super::narrow::distance::{nearest, touch};
 use super::{Collision, ObstacleId, Scene, Witness};
@@ -65,8 +65,8 @@ impl Collision for Surroundings<'_> {
 
     fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
         let passes =
-            |way: &Way, other| Placed::is_valid(other) && way.passes(other, reach, largest_coordinate([other]));
-        Way::new(from, to)
+            |way: &SweptHull, other| Placed::is_valid(other) && way.passes(other, reach, largest_coordinate([other]));
+        SweptHull::new(from, to)
             .is_some_and(|way| way.clears(self.scene, reach) && self.others.iter().all(|other| passes(&way, other)))
     }
 

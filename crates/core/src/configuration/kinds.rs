@@ -8,13 +8,13 @@ use super::RobotKind;
 use crate::geometry::Footprint;
 
 /// The footprint of a robot of a kind at a configuration with these coordinates; `None` where there is none.
-type Outline = Arc<dyn Fn(&[f64]) -> Option<Footprint> + Send + Sync>;
+type FootprintOf = Arc<dyn Fn(&[f64]) -> Option<Footprint> + Send + Sync>;
 
 /// What is known of a kind.
 #[derive(Clone, Default)]
 struct Known {
     about: Option<&'static RobotKind>,
-    outline: Option<Outline>,
+    outline: Option<FootprintOf>,
 }
 
 impl PartialEq for Known {

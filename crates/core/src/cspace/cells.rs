@@ -22,7 +22,7 @@ pub struct Cell {
 
 /// How far the proofs have come.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
+pub struct ProofProgress {
     /// Cells judged so far.
     pub judged: u64,
     /// The part of the slice proven free, 0 to 1.
@@ -37,7 +37,7 @@ pub struct Progress {
 
 /// A node of the tree of cells; a leaf has no children.
 #[derive(Clone, Debug)]
-struct Node {
+struct TreeNode {
     cell: Cell,
     /// The first of four children, which stand side by side.
     children: Option<u32>,
@@ -50,7 +50,7 @@ struct Node {
 pub struct CellMap {
     slice: Slice,
     finest: u32,
-    nodes: Vec<Node>,
+    nodes: Vec<TreeNode>,
     waiting: VecDeque<u32>,
     judged: u64,
     /// The proven area in cells of the finest level.
@@ -63,7 +63,7 @@ impl CellMap {
     /// limited to [`MAX_LEVEL`].
     pub fn new(slice: Slice, finest: u32) -> Self {
         let finest = std::cmp::min(finest, MAX_LEVEL);
-        let root = Node { cell: Cell { level: 0, column: 0, row: 0, state: CellState::Unknown }, children: None };
+        let root = TreeNode { cell: Cell { level: 0, column: 0, row: 0, state: CellState::Unknown }, children: None };
         CellMap { slice, finest, nodes: vec![root], waiting: VecDeque::from([0]), judged: 0, free: 0, blocked: 0 }
     }
 
@@ -102,7 +102,7 @@ impl CellMap {
                 for k in 0..4 {
                     let (column, row) = (2 * cell.column + k % 2, 2 * cell.row + k / 2);
                     let cell = Cell { level: cell.level + 1, column, row, state: CellState::Unknown };
-                    self.nodes.push(Node { cell, children: None });
+                    self.nodes.push(TreeNode { cell, children: None });
                     self.waiting.push_back(first + k);
                 }
             }
@@ -121,11 +121,11 @@ impl CellMap {
     }
 
     /// How far the proofs have come.
-    pub fn progress(&self) -> Progress {
+    pub fn progress(&self) -> ProofProgress {
         let all = (1_u64 << (2 * self.finest)) as f64;
         let (free, blocked) = (self.free as f64 / all, self.blocked as f64 / all);
         let unknown = ((1_u64 << (2 * self.finest)) - self.free - self.blocked) as f64 / all;
-        Progress { judged: self.judged, free, blocked, unknown, done: self.waiting.is_empty() }
+        ProofProgress { judged: self.judged, free, blocked, unknown, done: self.waiting.is_empty() }
     }
 
     /// The number of cells that there are to judge in all, estimated: a line between free and blocked crosses half of
@@ -271,7 +271,7 @@ mod tests {
             assert_eq!(whole.expected(), all, "nothing is left to estimate");
             let mut map = map(thick, 9);
             while map.refine(100) {
-                let Progress { judged, .. } = map.progress();
+                let ProofProgress { judged, .. } = map.progress();
                 assert!(map.expected() > judged, "cells are left");
                 if judged > 1000 {
                     assert!((all / 3..=3 * all).contains(&map.expected()), "{} of {all} at {judged}", map.expected());

@@ -25,7 +25,7 @@ mod regions;
 mod slice;
 mod wrapping;
 
-pub use cells::{Cell, CellMap, MAX_LEVEL, Progress};
+pub use cells::{Cell, CellMap, MAX_LEVEL, ProofProgress};
 pub use nearest::{NearestFree, nearest_free};
 pub use picture::{Overlay, cspace_picture, lines_through, overlay_items};
 pub use regions::{Region, region_items, regions};

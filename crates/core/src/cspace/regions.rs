@@ -12,10 +12,10 @@ use crate::robots::Robot;
 const SIDE: usize = 64;
 
 /// Least number of samples of a region that is named: some hundredths of the slice.
-const LEAST: usize = 40;
+const MIN_SAMPLES: usize = 40;
 
 /// Largest number of regions.
-const MOST: usize = 8;
+const MAX_REGIONS: usize = 8;
 
 /// Least distance of two names, in samples: across, as a name is long, and up.
 const APART: [usize; 2] = [12, 4];
@@ -51,7 +51,7 @@ pub fn regions(slice: &Slice) -> Vec<Region> {
                 }
             }
         }
-        if cells.len() >= LEAST {
+        if cells.len() >= MIN_SAMPLES {
             let deepest = deepest(&cells, is_of, slice.wraps());
             found.push((cells.len(), [deepest % SIDE, deepest / SIDE], obstacle));
         }
@@ -61,7 +61,7 @@ pub fn regions(slice: &Slice) -> Vec<Region> {
     for (size, at, obstacle) in found {
         let is_near = |other: &[usize; 2]| (0..2).all(|i| other[i].abs_diff(at[i]) < APART[i]);
         let Some(name) = slice.checker().scene().obstacle_name(obstacle) else { continue };
-        if regions.len() < MOST && !regions.iter().any(|(_, other)| is_near(other)) {
+        if regions.len() < MAX_REGIONS && !regions.iter().any(|(_, other)| is_near(other)) {
             let share = size as f64 / (SIDE * SIDE) as f64;
             regions.push((Region { name: name.to_owned(), at: place(slice, at), share }, at));
         }

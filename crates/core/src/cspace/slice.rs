@@ -11,7 +11,7 @@ use crate::robots::{AnyRobot, ConfigurationError, Robot};
 
 /// Subtracted from every clearance and depth before it is compared with a bound, metres. It is far above the rounding
 /// of either.
-const SLACK: f64 = 1e-11;
+const ROUNDING: f64 = 1e-11;
 
 /// What is known of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -160,12 +160,12 @@ impl Slice {
             footprint.parts().iter().zip(&rates).map(|(part, rate)| (Footprint::new([part.clone()]), rate.speed));
         let mut free = true;
         for (part, bound) in parts {
-            let gap = scene.distance(&part) - SLACK;
+            let gap = scene.distance(&part) - ROUNDING;
             if gap > bound {
                 continue;
             }
             free = false;
-            if gap <= 0.0 && scene.depth(&part) - SLACK > bound {
+            if gap <= 0.0 && scene.depth(&part) - ROUNDING > bound {
                 return CellState::Blocked;
             }
         }

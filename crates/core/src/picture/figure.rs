@@ -41,7 +41,7 @@ pub struct Sheet<'a> {
 
 /// Something laid out on a sheet: a group with its name, a bare stroke or word of the sheet's own, or the start or end
 /// of clipping at a panel's frame.
-pub(super) enum Entry {
+pub(super) enum FigureEntry {
     Bare(Primitive),
     Group { id: String, name: String, role: Role, primitives: Vec<Primitive> },
     Clip(ScreenRect),
@@ -73,7 +73,7 @@ impl Figure {
     /// things whose size on the sheet is fixed.
     pub fn px_per_metre(&self, width_px: f64) -> Vec<f64> {
         let tallest = self.tallest(width_px);
-        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, Room { width: width_px, tallest }));
+        let sizes = self.rows(width_px).flat_map(|row| frame_sizes(row, RowHeight { width: width_px, tallest }));
         let fit = |(panel, size): (&Panel, [f64; 2])| {
             Fit::new(&panel.picture.bounds, ScreenRect { min: [0.0; 2], size }, MARGIN).px_per_metre()
         };
@@ -92,24 +92,24 @@ impl Figure {
     fn tallest(&self, width: f64) -> f64 {
         let heights = self
             .rows(width)
-            .filter_map(|row| Some(frame_sizes(row, Room { width, tallest: TALLEST }).first()?[1] - 2.0 * MARGIN));
+            .filter_map(|row| Some(frame_sizes(row, RowHeight { width, tallest: TALLEST }).first()?[1] - 2.0 * MARGIN));
         heights.fold(TALLEST, |tallest, height| lesser(tallest, HIGHER * height))
     }
 
     /// All strokes and words in painting order, and the size of the sheet.
-    pub(super) fn lay_out(&self, width: f64) -> (Vec<Entry>, [f64; 2]) {
+    pub(super) fn lay_out(&self, width: f64) -> (Vec<FigureEntry>, [f64; 2]) {
         let mut entries = Vec::new();
         let (mut right, mut top) = (GAP, GAP);
         let tallest = self.tallest(width);
         for row in self.rows(width) {
-            let [row_right, row_bottom] = lay_out_row(row, top, Room { width, tallest }, &mut entries);
+            let [row_right, row_bottom] = lay_out_row(row, top, RowHeight { width, tallest }, &mut entries);
             right = greater(right, row_right);
             top = row_bottom + GAP;
         }
         let letters = ((width - 2.0 * GAP) / (13.0 * 0.52)) as usize;
         for line in self.caption.iter().flat_map(|line| wrapped(line, letters)) {
             let line = line.trim();
-            entries.push(Entry::Bare(text(GAP, top, line, Face::Sans, 13.0, Role::Text)));
+            entries.push(FigureEntry::Bare(text(GAP, top, line, Face::Sans, 13.0, Role::Text)));
             top += LEADING + 2.0;
         }
         (entries, [(right + GAP).ceil(), top.ceil()])
@@ -118,7 +118,7 @@ impl Figure {
 
 /// The room for a row, pixels.
 #[derive(Clone, Copy)]
-struct Room {
+struct RowHeight {
     /// The width of the sheet.
     width: f64,
     /// The greatest height of a picture within its frame.
@@ -126,7 +126,7 @@ struct Room {
 }
 
 /// The sizes of a row's frames, all of one height: as large as the width allows, at most `tallest` inside.
-fn frame_sizes(row: &[Panel], Room { width, tallest }: Room) -> Vec<[f64; 2]> {
+fn frame_sizes(row: &[Panel], RowHeight { width, tallest }: RowHeight) -> Vec<[f64; 2]> {
     let aspect = |panel: &Panel| {
         let bounds = &panel.picture.bounds;
         // the panels of very wide and very high worlds are limited to these ratios
@@ -139,7 +139,7 @@ fn frame_sizes(row: &[Panel], Room { width, tallest }: Room) -> Vec<[f64; 2]> {
 }
 
 /// Lays a row out below `top`; returns how far it reaches to the right and down.
-fn lay_out_row(row: &[Panel], top: f64, room: Room, entries: &mut Vec<Entry>) -> [f64; 2] {
+fn lay_out_row(row: &[Panel], top: f64, room: RowHeight, entries: &mut Vec<FigureEntry>) -> [f64; 2] {
     let mut left = GAP;
     let mut bottom = top;
     for (panel, size) in row.iter().zip(frame_sizes(row, room)) {
@@ -151,31 +151,31 @@ fn lay_out_row(row: &[Panel], top: f64, room: Room, entries: &mut Vec<Entry>) ->
     [left - GAP, bottom]
 }
 
-fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<Entry>) -> f64 {
+fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<FigureEntry>) -> f64 {
     let fit = Fit::new(&panel.picture.bounds, rect, MARGIN);
     let items: Vec<_> = panel.picture.items.iter().map(|item| (item, resolve(item, &fit))).collect();
     let cut = items.iter().any(|(_, primitives)| primitives.iter().any(|p| reaches_out(p, &rect)));
-    entries.extend(cut.then_some(Entry::Clip(rect)));
+    entries.extend(cut.then_some(FigureEntry::Clip(rect)));
     for (item, primitives) in items {
         let id = format!("{}/{}", panel.picture.name, item.id);
-        entries.push(Entry::Group { id, name: item.name.clone(), role: item.role, primitives });
+        entries.push(FigureEntry::Group { id, name: item.name.clone(), role: item.role, primitives });
     }
-    entries.extend(cut.then_some(Entry::Unclip));
+    entries.extend(cut.then_some(FigureEntry::Unclip));
     let [x, y] = rect.min;
     let (right, bottom) = (x + rect.size[0], y + rect.size[1]);
     let frame = vec![vec![[x, y], [right, y], [right, bottom], [x, bottom], [x, y]]];
-    entries.push(Entry::Bare(Primitive::Lines { lines: frame, role: Role::Hairline, line: Line::solid(1.0) }));
+    entries.push(FigureEntry::Bare(Primitive::Lines { lines: frame, role: Role::Hairline, line: Line::solid(1.0) }));
     let mut baseline = bottom + LEADING + 2.0;
     if panel.picture.in_metres {
         entries.extend(scale_bar(&fit, right, baseline));
     }
     if !panel.heading.is_empty() {
-        entries.push(Entry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
+        entries.push(FigureEntry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
     }
     let columns = (rect.size[0] / (11.0 * 0.61)) as usize;
     for line in panel.readout.iter().flat_map(|line| wrapped(line, columns)) {
         baseline += LEADING;
-        entries.push(Entry::Bare(text(x, baseline, &line, Face::Mono, 11.0, Role::Muted)));
+        entries.push(FigureEntry::Bare(text(x, baseline, &line, Face::Mono, 11.0, Role::Muted)));
     }
     baseline + 4.0
 }
@@ -207,7 +207,7 @@ fn wrapped(line: &str, columns: usize) -> Vec<String> {
 }
 
 /// A scale bar that ends at `right`.
-fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [Entry; 2] {
+fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [FigureEntry; 2] {
     let bar = ScaleBar::new(fit.px_per_metre(), 80.0);
     let (left, y) = (right - bar.length_px, baseline - 4.0);
     let lines = vec![
@@ -224,7 +224,7 @@ fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [Entry; 2] {
         role: Role::Muted,
         plate: false,
     };
-    [Entry::Bare(Primitive::Lines { lines, role: Role::Muted, line: Line::solid(1.0) }), Entry::Bare(label)]
+    [FigureEntry::Bare(Primitive::Lines { lines, role: Role::Muted, line: Line::solid(1.0) }), FigureEntry::Bare(label)]
 }
 
 /// Words on a baseline.

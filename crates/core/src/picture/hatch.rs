@@ -14,7 +14,7 @@ const JOINT: f64 = 0.01;
 const DOT_STEP: f64 = 6.0;
 
 /// Largest span of lattice numbers in one polygon. A polygon larger than that on the screen gets no lines or dots.
-const MOST: i64 = 2000;
+const MAX_LATTICE: i64 = 2000;
 
 /// The least and greatest value of `f` over the polygon's corners.
 fn range(polygon: &[ScreenPoint], f: impl Fn(&ScreenPoint) -> f64) -> (f64, f64) {
@@ -24,7 +24,7 @@ fn range(polygon: &[ScreenPoint], f: impl Fn(&ScreenPoint) -> f64) -> (f64, f64)
 /// The numbers k with `lo <= k * step <= hi`; none when there are too many or a bound is not finite.
 fn lattice(lo: f64, hi: f64, step: f64) -> std::ops::Range<i64> {
     let (first, last) = ((lo / step).ceil() as i64, (hi / step).floor() as i64);
-    let fits = lo.is_finite() && hi.is_finite() && last.saturating_sub(first) <= MOST;
+    let fits = lo.is_finite() && hi.is_finite() && last.saturating_sub(first) <= MAX_LATTICE;
     if fits { first..last.saturating_add(1) } else { 0..0 }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
-use super::figure::{Entry, WIDTH};
+use super::figure::{FigureEntry, WIDTH};
 use super::item::MIDDLE;
 use super::{Anchor, Face, Figure, Line, Palette, Primitive, Role, ScreenPoint, Sheet};
 
@@ -25,7 +25,7 @@ impl Figure {
 ///
 /// Every item is a group with its id, its role as class and its name as title. Colours stand in one stylesheet: in a
 /// group of role r, class `f` is filled with the role's colour and `l` stroked with it.
-fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], sheet: &Sheet<'_>) -> String {
+fn write(figure: &Figure, entries: &[FigureEntry], size: [f64; 2], sheet: &Sheet<'_>) -> String {
     let mut out = Out { text: String::new(), ids: BTreeSet::new() };
     let (w, h) = (number(size[0]), number(size[1]));
     let _ = write!(
@@ -44,14 +44,14 @@ fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], sheet: &Sheet<'_>) 
     let _ = writeln!(out.text, "<rect class=\"paper f\" width=\"{w}\" height=\"{h}\"/>");
     for entry in entries {
         match entry {
-            Entry::Bare(primitive) => out.primitive(primitive),
-            Entry::Group { id, name, role, primitives } => {
+            FigureEntry::Bare(primitive) => out.primitive(primitive),
+            FigureEntry::Group { id, name, role, primitives } => {
                 let id = out.unique(id);
                 let _ = writeln!(out.text, "<g id=\"{id}\" class=\"{}\"><title>{}</title>", role.name(), escape(name));
                 out.primitives(primitives);
                 out.text.push_str("</g>\n");
             }
-            Entry::Clip(rect) => {
+            FigureEntry::Clip(rect) => {
                 let id = out.unique("clip");
                 let [x, y] = rect.min.map(number);
                 let [w, h] = rect.size.map(number);
@@ -61,7 +61,7 @@ fn write(figure: &Figure, entries: &[Entry], size: [f64; 2], sheet: &Sheet<'_>) 
                      <g clip-path=\"url(#{id})\">"
                 );
             }
-            Entry::Unclip => out.text.push_str("</g>\n"),
+            FigureEntry::Unclip => out.text.push_str("</g>\n"),
         }
     }
     out.text.push_str("</svg>\n");

@@ -84,7 +84,7 @@ mod tests {
     ];
 
     /// Any two of them are at least this far apart (CIEDE2000), for any kind of sight.
-    const LEAST_DIFFERENCE: f64 = 12.0;
+    const MIN_DIFFERENCE: f64 = 12.0;
 
     fn linear(Rgb(channels): Rgb) -> [f64; 3] {
         channels.map(|c| {
@@ -216,7 +216,7 @@ mod tests {
                 for (i, &a) in GRAPHICS.iter().enumerate() {
                     for &b in &GRAPHICS[..i] {
                         let difference = ciede2000(seen(a), seen(b));
-                        assert!(difference >= LEAST_DIFFERENCE, "{theme:?} {sight} {a:?} {b:?} {difference:.1}");
+                        assert!(difference >= MIN_DIFFERENCE, "{theme:?} {sight} {a:?} {b:?} {difference:.1}");
                     }
                 }
             }

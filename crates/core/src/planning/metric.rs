@@ -6,7 +6,7 @@ use crate::short_list::ShortList;
 
 /// One coordinate of a chart, as a metric measures it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Axis {
+pub(super) struct MetricAxis {
     pub(super) weight: f64,
     pub(super) is_angle: bool,
 }
@@ -24,7 +24,7 @@ pub(super) struct Axis {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metric {
-    axes: ShortList<Axis, 4>,
+    axes: ShortList<MetricAxis, 4>,
 }
 
 /// Why a metric is refused.
@@ -52,7 +52,7 @@ pub enum MetricError {
 impl Metric {
     /// The metric of the space of `like` in which a metre counts as much as a radian.
     pub fn unit<C: Chart>(like: &C) -> Self {
-        let axis = |i| Axis { weight: 1.0, is_angle: like.is_angle(i) };
+        let axis = |i| MetricAxis { weight: 1.0, is_angle: like.is_angle(i) };
         Metric { axes: (0..like.coordinates().len()).map(axis).collect() }
     }
 
@@ -85,7 +85,7 @@ impl Metric {
         sqrt(self.squared(&a.coordinates(), &b.coordinates()))
     }
 
-    pub(super) fn axes(&self) -> &[Axis] {
+    pub(super) fn axes(&self) -> &[MetricAxis] {
         &self.axes
     }
 

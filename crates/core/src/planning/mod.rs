@@ -53,5 +53,5 @@ pub use progress::Progress;
 pub use queue::Queue;
 pub use sampling::{sample_near, sample_toward_goal};
 pub use search::Search;
-pub use sensed::{LeavePoint, Leaving, Sensed};
-pub use settings::Settings;
+pub use sensed::{LeavePoint, RoundEnd, Sensed};
+pub use settings::SamplingSettings;

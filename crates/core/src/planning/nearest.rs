@@ -29,7 +29,7 @@ pub struct Neighbour {
 #[derive(Clone, Debug)]
 pub struct Nearest {
     metric: Metric,
-    trees: Vec<Tree>,
+    trees: Vec<PointTree>,
     list: Vec<Point>,
 }
 
@@ -42,7 +42,7 @@ struct Point {
 /// A balanced tree without pointers: the point in the middle of a range parts those before it from those after it, by
 /// one coordinate.
 #[derive(Clone, Debug)]
-struct Tree {
+struct PointTree {
     points: Vec<Point>,
     /// The coordinate by which the point of the same number parts its range.
     axes: Vec<usize>,
@@ -75,25 +75,25 @@ impl Nearest {
         while let Some(tree) = self.trees.pop_if(|tree| tree.points.len() <= points.len()) {
             points.extend(tree.points);
         }
-        self.trees.push(Tree::new(points, &self.metric));
+        self.trees.push(PointTree::new(points, &self.metric));
     }
 
     /// The nearest; `None` when there are none.
     pub fn nearest<C: Chart>(&self, q: &C) -> Option<Neighbour> {
-        self.find(q, Found::of(1, f64::INFINITY)).pop()
+        self.find(q, NearestSoFar::of(1, f64::INFINITY)).pop()
     }
 
     /// The `count` nearest, the nearest first; fewer when there are fewer.
     pub fn nearest_few<C: Chart>(&self, q: &C, count: usize) -> Vec<Neighbour> {
-        self.find(q, Found::of(count, f64::INFINITY))
+        self.find(q, NearestSoFar::of(count, f64::INFINITY))
     }
 
     /// All within a distance, that distance included, the nearest first.
     pub fn within<C: Chart>(&self, q: &C, distance: f64) -> Vec<Neighbour> {
-        self.find(q, Found::of(usize::MAX, distance))
+        self.find(q, NearestSoFar::of(usize::MAX, distance))
     }
 
-    fn find<C: Chart>(&self, q: &C, mut found: Found) -> Vec<Neighbour> {
+    fn find<C: Chart>(&self, q: &C, mut found: NearestSoFar) -> Vec<Neighbour> {
         let at = q.in_chart().coordinates();
         for point in &self.list {
             found.offer(self.metric.squared(&at, &point.at), point.number);
@@ -106,15 +106,15 @@ impl Nearest {
 }
 
 /// The best so far, the nearest first, ties by number.
-struct Found {
+struct NearestSoFar {
     most: usize,
     within: f64,
     best: Vec<(f64, usize)>,
 }
 
-impl Found {
+impl NearestSoFar {
     fn of(most: usize, within: f64) -> Self {
-        Found { most, within, best: Vec::new() }
+        NearestSoFar { most, within, best: Vec::new() }
     }
 
     fn offer(&mut self, squared: f64, number: usize) {
@@ -137,16 +137,23 @@ impl Found {
     }
 }
 
-impl Tree {
+impl PointTree {
     fn new(mut points: Vec<Point>, metric: &Metric) -> Self {
         let mut axes = vec![0; points.len()];
         let corners = corners_of(&points);
         part(&mut points, &mut axes, metric);
-        Tree { points, axes, corners }
+        PointTree { points, axes, corners }
     }
 
     /// Offers every point of a range that could be among the best; `corners` bound them.
-    fn visit(&self, range: Range<usize>, corners: [Coordinates; 2], metric: &Metric, at: &[f64], found: &mut Found) {
+    fn visit(
+        &self,
+        range: Range<usize>,
+        corners: [Coordinates; 2],
+        metric: &Metric,
+        at: &[f64],
+        found: &mut NearestSoFar,
+    ) {
         if found.is_out_of_reach(least(metric, at, &corners)) {
             return;
         }

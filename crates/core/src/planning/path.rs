@@ -145,8 +145,8 @@ impl<M: Motion> CertifiedPath<M> {
         self.legs.iter().fold(f64::INFINITY, |least, leg| lesser(leg.certificate.clearance(), least))
     }
 
-    /// Checks the certificates by the verifier, which shares nothing but exact predicates with the march, and that the
-    /// legs join. Returns the proven clearance, metres.
+    /// Checks the certificates by [`verify_certificate`], and that the legs join.
+    /// Returns the proven clearance, metres.
     ///
     /// # Errors
     /// [`PathError`] names the first leg that is not proven.

@@ -7,32 +7,32 @@ use std::collections::BinaryHeap;
 /// not depend on the order of pushing. A node may be in it several times.
 #[derive(Clone, Debug, Default)]
 pub struct Queue {
-    heap: BinaryHeap<Reverse<Entry>>,
+    heap: BinaryHeap<Reverse<QueueEntry>>,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Entry {
+struct QueueEntry {
     cost: f64,
     node: usize,
 }
 
-impl Entry {
+impl QueueEntry {
     fn order(&self, other: &Self) -> Ordering {
         self.cost.total_cmp(&other.cost).then(self.node.cmp(&other.node))
     }
 }
-impl PartialEq for Entry {
+impl PartialEq for QueueEntry {
     fn eq(&self, other: &Self) -> bool {
         self.order(other).is_eq()
     }
 }
-impl Eq for Entry {}
-impl PartialOrd for Entry {
+impl Eq for QueueEntry {}
+impl PartialOrd for QueueEntry {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
-impl Ord for Entry {
+impl Ord for QueueEntry {
     fn cmp(&self, other: &Self) -> Ordering {
         self.order(other)
     }
@@ -46,7 +46,7 @@ impl Queue {
 
     /// Adds a node at a cost.
     pub fn push(&mut self, cost: f64, node: usize) {
-        self.heap.push(Reverse(Entry { cost, node }));
+        self.heap.push(Reverse(QueueEntry { cost, node }));
     }
 
     /// Takes the node of least cost.

@@ -17,7 +17,7 @@ pub struct Sensed {
 
 /// The end of a round about an obstacle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Leaving {
+pub enum RoundEnd {
     /// It left for the goal.
     Free,
     /// It saw the goal behind the obstacle, at the place that seemed nearest to the goal.
@@ -39,7 +39,7 @@ pub struct LeavePoint {
     /// The excess of the leave point's distance from the goal over that place's, metres.
     pub excess: f64,
     /// How the round ended.
-    pub leaving: Leaving,
+    pub leaving: RoundEnd,
 }
 
 impl LeavePoint {
@@ -48,7 +48,7 @@ impl LeavePoint {
 
     /// Whether the robot misjudged it, given that the goal can be reached.
     pub fn is_misjudged(&self) -> bool {
-        self.leaving != Leaving::Free || self.is_too_far()
+        self.leaving != RoundEnd::Free || self.is_too_far()
     }
 
     /// Whether it lies farther from the goal than the nearest place of the round, by more than the tolerance.
@@ -63,17 +63,17 @@ impl fmt::Display for LeavePoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let excess = self.excess;
         match self.leaving {
-            Leaving::Free if self.is_too_far() => {
+            RoundEnd::Free if self.is_too_far() => {
                 write!(f, "left {excess:.2} m farther from the goal than the boundary comes: misjudged")
             }
-            Leaving::Free => f.write_str("left where the boundary comes nearest"),
-            Leaving::Behind if self.is_too_far() => write!(
+            RoundEnd::Free => f.write_str("left where the boundary comes nearest"),
+            RoundEnd::Behind if self.is_too_far() => write!(
                 f,
                 "saw the goal behind the obstacle, {excess:.2} m farther from it than the boundary comes: misjudged"
             ),
-            Leaving::Behind => f.write_str("saw the goal behind the obstacle where the boundary comes nearest"),
-            Leaving::NotFound => f.write_str("never came back to where the boundary had seemed nearest"),
-            Leaving::NotClosed => f.write_str("never closed its round"),
+            RoundEnd::Behind => f.write_str("saw the goal behind the obstacle where the boundary comes nearest"),
+            RoundEnd::NotFound => f.write_str("never came back to where the boundary had seemed nearest"),
+            RoundEnd::NotClosed => f.write_str("never closed its round"),
         }
     }
 }
@@ -84,17 +84,20 @@ mod tests {
 
     #[test]
     fn what_lies_beyond_the_tolerance_is_misjudged_and_said_in_metres() {
-        let of = |excess: f64, leaving: Leaving| LeavePoint { at: Point2::origin(), nearest: None, excess, leaving };
+        let of = |excess: f64, leaving: RoundEnd| LeavePoint { at: Point2::origin(), nearest: None, excess, leaving };
         let words = |excess, leaving| of(excess, leaving).to_string();
-        assert_eq!(words(0.1, Leaving::Free), "left where the boundary comes nearest");
-        assert_eq!(words(-0.3, Leaving::Free), "left where the boundary comes nearest");
-        assert_eq!(words(0.432, Leaving::Free), "left 0.43 m farther from the goal than the boundary comes: misjudged");
-        assert!(words(0.432, Leaving::Behind).ends_with("0.43 m farther from it than the boundary comes: misjudged"));
+        assert_eq!(words(0.1, RoundEnd::Free), "left where the boundary comes nearest");
+        assert_eq!(words(-0.3, RoundEnd::Free), "left where the boundary comes nearest");
+        assert_eq!(
+            words(0.432, RoundEnd::Free),
+            "left 0.43 m farther from the goal than the boundary comes: misjudged"
+        );
+        assert!(words(0.432, RoundEnd::Behind).ends_with("0.43 m farther from it than the boundary comes: misjudged"));
         let misjudged = |excess, leaving| of(excess, leaving).is_misjudged();
         assert!(
-            !misjudged(0.1, Leaving::Free) && misjudged(0.101, Leaving::Free) && misjudged(f64::NAN, Leaving::Free)
+            !misjudged(0.1, RoundEnd::Free) && misjudged(0.101, RoundEnd::Free) && misjudged(f64::NAN, RoundEnd::Free)
         );
-        for leaving in [Leaving::Behind, Leaving::NotFound, Leaving::NotClosed] {
+        for leaving in [RoundEnd::Behind, RoundEnd::NotFound, RoundEnd::NotClosed] {
             assert!(misjudged(0.0, leaving), "{leaving:?}");
         }
     }

@@ -1,4 +1,4 @@
-//! `Settings`, what sampling planners take beside the problem.
+//! `SamplingSettings`, what sampling planners take beside the problem.
 
 use super::Metric;
 use crate::collision::Problem;
@@ -11,7 +11,7 @@ const STEP: f64 = 0.2;
 
 /// The settings of sampling planners.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Settings {
+pub struct SamplingSettings {
     /// The metric by which nodes are near.
     pub metric: Metric,
     /// The greatest length of a new edge, by the metric.
@@ -20,7 +20,7 @@ pub struct Settings {
     pub goal_bias: f64,
 }
 
-impl Settings {
+impl SamplingSettings {
     /// The configuration at most a step from `from` on the way to `to`; `None` where no edge joins them.
     pub fn toward<C: Chart>(&self, from: &C, to: &C) -> Option<C> {
         let share = self.step / self.metric.distance(from, to);
@@ -36,6 +36,6 @@ impl Settings {
         let radius = |is_angle| if is_angle { std::f64::consts::PI } else { half };
         let squares = metric.axes().iter().map(|axis| radius(axis.is_angle) * radius(axis.is_angle));
         let step = STEP * sqrt(squares.sum());
-        Settings { metric, step, goal_bias: 0.05 }
+        SamplingSettings { metric, step, goal_bias: 0.05 }
     }
 }

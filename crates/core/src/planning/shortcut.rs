@@ -13,7 +13,7 @@ const HALVINGS: u32 = 4;
 
 /// A place on a path: the number of a leg, and the parameter along it.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct LegParameter {
     leg: usize,
     s: f64,
 }
@@ -23,10 +23,10 @@ impl<R: Robot<Configuration: Chart>> LinePath<R> {
     /// proven free and shorter. Never longer by the metric, and certified.
     #[must_use]
     pub fn pruned(&self, checker: &Checker<R>, metric: &Metric) -> Self {
-        let mut draft = Draft::of(self, checker, metric);
+        let mut draft = PathDraft::of(self, checker, metric);
         let mut leg = 0;
         while leg + 1 < draft.legs.len() {
-            if draft.join(Place { leg, s: 0.0 }, Place { leg: leg + 1, s: 1.0 }) {
+            if draft.join(LegParameter { leg, s: 0.0 }, LegParameter { leg: leg + 1, s: 1.0 }) {
                 // the corner before may go now
                 leg = leg.saturating_sub(1);
             } else {
@@ -53,7 +53,7 @@ impl<R: Robot<Configuration: Chart>> LinePath<R> {
     /// ```
     #[must_use]
     pub fn shortcut(&self, checker: &Checker<R>, metric: &Metric, stream: &mut Stream, tries: u32) -> Self {
-        let mut draft = Draft::of(self, checker, metric);
+        let mut draft = PathDraft::of(self, checker, metric);
         for _ in 0..tries {
             let (a, b) = (stream.unit(), stream.unit());
             let [from, to] = [lesser(a, b), if a < b { b } else { a }].map(|share| draft.place(share));
@@ -66,7 +66,7 @@ impl<R: Robot<Configuration: Chart>> LinePath<R> {
     /// longer by the metric, and certified.
     #[must_use]
     pub fn smoothed(&self, checker: &Checker<R>, metric: &Metric, rounds: u32) -> Self {
-        let mut draft = Draft::of(self, checker, metric);
+        let mut draft = PathDraft::of(self, checker, metric);
         for _ in 0..rounds {
             let mut leg = 0;
             while leg + 1 < draft.legs.len() {
@@ -78,45 +78,45 @@ impl<R: Robot<Configuration: Chart>> LinePath<R> {
 }
 
 /// A path at work.
-struct Draft<'a, R: Robot> {
+struct PathDraft<'a, R: Robot> {
     checker: &'a Checker<R>,
     metric: &'a Metric,
     legs: Vec<Leg<ChartLine<R>>>,
 }
 
-impl<'a, R: Robot<Configuration: Chart>> Draft<'a, R> {
+impl<'a, R: Robot<Configuration: Chart>> PathDraft<'a, R> {
     fn of(path: &LinePath<R>, checker: &'a Checker<R>, metric: &'a Metric) -> Self {
-        Draft { checker, metric, legs: path.legs().to_vec() }
+        PathDraft { checker, metric, legs: path.legs().to_vec() }
     }
 
-    fn at(&self, place: Place) -> R::Configuration {
+    fn at(&self, place: LegParameter) -> R::Configuration {
         self.legs[place.leg].motion().at(place.s)
     }
 
     fn length(&self, leg: usize) -> f64 {
-        self.metric.distance(&self.at(Place { leg, s: 0.0 }), &self.at(Place { leg, s: 1.0 }))
+        self.metric.distance(&self.at(LegParameter { leg, s: 0.0 }), &self.at(LegParameter { leg, s: 1.0 }))
     }
 
     /// The place at a share of the path's length.
-    fn place(&self, share: f64) -> Place {
+    fn place(&self, share: f64) -> LegParameter {
         let total: f64 = (0..self.legs.len()).map(|leg| self.length(leg)).sum();
         let mut rest = share * total;
         for leg in 0..self.legs.len() {
             let length = self.length(leg);
             if rest < length {
-                return Place { leg, s: rest / length };
+                return LegParameter { leg, s: rest / length };
             }
             rest -= length;
         }
-        Place { leg: self.legs.len() - 1, s: 1.0 }
+        LegParameter { leg: self.legs.len() - 1, s: 1.0 }
     }
 
     /// Joins two places by a straight edge, if all that is new is proven free and it shortens the path.
-    fn join(&mut self, from: Place, to: Place) -> bool {
+    fn join(&mut self, from: LegParameter, to: LegParameter) -> bool {
         if from.leg >= to.leg {
             return false;
         }
-        let (start, end) = (Place { s: 0.0, ..from }, Place { s: 1.0, ..to });
+        let (start, end) = (LegParameter { s: 0.0, ..from }, LegParameter { s: 1.0, ..to });
         let mut corners = vec![self.at(start)];
         for (place, is_corner) in [(from, from.s == 0.0), (to, to.s == 1.0), (end, false)] {
             let q = self.at(place);
@@ -143,7 +143,7 @@ impl<'a, R: Robot<Configuration: Chart>> Draft<'a, R> {
         let [before, after] = [leg, leg + 1].map(|leg| self.length(leg));
         let mut far = 0.5 * lesser(before, after);
         for _ in 0..HALVINGS {
-            if self.join(Place { leg, s: 1.0 - far / before }, Place { leg: leg + 1, s: far / after }) {
+            if self.join(LegParameter { leg, s: 1.0 - far / before }, LegParameter { leg: leg + 1, s: far / after }) {
                 return true;
             }
             far *= 0.5;

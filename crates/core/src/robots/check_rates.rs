@@ -21,18 +21,18 @@ const AWAY: f64 = 10.0;
 
 /// One of the two motion bounds of a part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Bound {
+pub enum MotionBound {
     /// The bound on the speed, [`Rates::speed`](super::Rates::speed).
     Speed,
     /// The bound on the acceleration, [`Rates::acceleration`](super::Rates::acceleration).
     Acceleration,
 }
 
-impl std::fmt::Display for Bound {
+impl std::fmt::Display for MotionBound {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
-            Bound::Speed => "speed",
-            Bound::Acceleration => "acceleration",
+            MotionBound::Speed => "speed",
+            MotionBound::Acceleration => "acceleration",
         })
     }
 }
@@ -45,7 +45,7 @@ pub enum RatesError<C: Configuration> {
     #[error("part {part} from {from} to {to}: its {bound} at {s} is {measured} m, its bound {claimed} m")]
     Exceeded {
         /// The bound that is exceeded.
-        bound: Bound,
+        bound: MotionBound,
         /// The number of the part.
         part: usize,
         /// The configuration at which the motion starts.
@@ -215,10 +215,14 @@ fn measure<M: Motion>(motion: &M, draws: &mut Stream, used: &mut RatesUse) -> Re
                 moved = greater((q - p).norm(), moved);
                 bow = greater((m - (p + (q - p) * 0.5)).norm(), bow);
             }
-            let speed = Measured { bound: Bound::Speed, value: moved, claimed: motion.bound(part, s - h, s + h) };
-            let acceleration =
-                Measured { bound: Bound::Acceleration, value: bow, claimed: motion.sagitta(part, s - h, s + h) };
-            for (Measured { bound, value, claimed }, unit) in [(speed, 2.0 * h), (acceleration, 0.5 * h * h)] {
+            let speed =
+                MeasuredPart { bound: MotionBound::Speed, value: moved, claimed: motion.bound(part, s - h, s + h) };
+            let acceleration = MeasuredPart {
+                bound: MotionBound::Acceleration,
+                value: bow,
+                claimed: motion.sagitta(part, s - h, s + h),
+            };
+            for (MeasuredPart { bound, value, claimed }, unit) in [(speed, 2.0 * h), (acceleration, 0.5 * h * h)] {
                 // a bound that is no number is exceeded
                 let holds = value <= claimed + 2.0 * rounding;
                 if !holds {
@@ -228,8 +232,8 @@ fn measure<M: Motion>(motion: &M, draws: &mut Stream, used: &mut RatesUse) -> Re
                 // where rounding is less than a millionth of the motion
                 if value > 2e6 * rounding {
                     let most = match bound {
-                        Bound::Speed => &mut used.speed,
-                        Bound::Acceleration => &mut used.acceleration,
+                        MotionBound::Speed => &mut used.speed,
+                        MotionBound::Acceleration => &mut used.acceleration,
                     };
                     *most = greater(value / claimed, *most);
                 }
@@ -240,8 +244,8 @@ fn measure<M: Motion>(motion: &M, draws: &mut Stream, used: &mut RatesUse) -> Re
 }
 
 /// What was measured of a part between two places, and what its bound allows, metres.
-struct Measured {
-    bound: Bound,
+struct MeasuredPart {
+    bound: MotionBound,
     value: f64,
     claimed: f64,
 }

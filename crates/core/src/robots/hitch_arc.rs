@@ -13,13 +13,13 @@ use crate::num::{greater, lesser, rk4, sin, sinc, ulp, wrap};
 const TRAILER_SUBSTEPS: u32 = 4;
 
 /// The greatest number of ticks of one drive: an hour.
-const MOST_TICKS: f64 = 72_000.0;
+const MAX_TICKS: f64 = 72_000.0;
 
 /// A time step this near a whole number of ticks is that number of ticks; in ticks.
 const WHOLE: f64 = 1e-9;
 
 /// The greatest number of pieces into which a tick is divided to see whether it leaves the jackknife limit.
-const MOST_PIECES: f64 = 256.0;
+const MAX_PIECES: f64 = 256.0;
 
 /// The motion of one tick: the body's exact arc, the trailer dragged along.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,7 +175,7 @@ impl HitchArc {
             return None;
         }
         let pieces = (change / (PI - limit)).ceil();
-        if pieces.is_nan() || pieces > MOST_PIECES {
+        if pieces.is_nan() || pieces > MAX_PIECES {
             return Some(leaving(0.0, 1.0)); // nothing is known of so wild a motion
         }
         let mut within_until = 0.0;
@@ -297,7 +297,7 @@ impl Drivable for Hitch {
             return Ok(HitchArc::one(whole, *u, dt).limited());
         }
         let ticks = dt.abs() / TICK;
-        if ticks > MOST_TICKS {
+        if ticks > MAX_TICKS {
             return Err(ConfigurationError::TooLong);
         }
         let tick = arc(if dt > 0.0 { TICK } else { -TICK }).ok_or(ConfigurationError::ControlNotFinite)?;

@@ -47,7 +47,7 @@ mod rusty;
 mod sizes;
 
 pub use any::AnyRobot;
-pub use check_rates::{Bound, RatesError, RatesUse, check_drive_rates, check_rates};
+pub use check_rates::{MotionBound, RatesError, RatesUse, check_drive_rates, check_rates};
 pub use hitch::{CarBody, CarCmd, HITCH, Hitch, TrailerBody};
 pub use hitch_arc::HitchArc;
 #[doc(hidden)]

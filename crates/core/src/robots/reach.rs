@@ -120,7 +120,7 @@ impl Reach<3> {
 
 /// A link at a configuration.
 #[derive(Clone, Copy)]
-struct Link {
+struct PlacedLink {
     /// Its frame: the origin at its proximal end, the x axis along it.
     pose: Pose2,
     /// The sine and the cosine of the frame's angle.
@@ -128,7 +128,7 @@ struct Link {
     length: f64,
 }
 
-impl Link {
+impl PlacedLink {
     fn end(&self) -> Point2 {
         self.pose.transform_by(self.sin_cos, Point2::new(self.length, 0.0))
     }
@@ -180,12 +180,12 @@ impl<const N: usize> Reach<N> {
     }
 
     /// The links at a configuration, from the base on.
-    fn links(&self, q: &Tn<N>) -> impl Iterator<Item = Link> {
-        let (base, mut last) = (self.base, None::<Link>);
+    fn links(&self, q: &Tn<N>) -> impl Iterator<Item = PlacedLink> {
+        let (base, mut last) = (self.base, None::<PlacedLink>);
         q.0.into_iter().zip(self.lengths).map(move |(angle, length)| {
             let (at, heading) = last.map_or((base, 0.0), |link| (link.end(), link.pose.theta));
             let theta = wrap(heading + in_range(angle));
-            let link = Link { pose: Pose2 { x: at.x, y: at.y, theta }, sin_cos: SinCos::of(theta), length };
+            let link = PlacedLink { pose: Pose2 { x: at.x, y: at.y, theta }, sin_cos: SinCos::of(theta), length };
             last = Some(link);
             link
         })
@@ -201,7 +201,7 @@ impl<const N: usize> Robot for Reach<N> {
 
     /// One capsule per link, part 0 the one at the base.
     fn footprint(&self, q: &Tn<N>) -> Footprint {
-        Footprint::new(self.links(q).map(|Link { pose, sin_cos, length }| {
+        Footprint::new(self.links(q).map(|PlacedLink { pose, sin_cos, length }| {
             let shape = Shape::Capsule { a: Point2::origin(), b: Point2::new(length, 0.0), radius: self.link_radius };
             Part::new_by(pose, sin_cos, shape)
         }))

@@ -7,7 +7,7 @@ use crate::collision::{Circle, LANES};
 use crate::num::sqrt;
 
 /// An upper bound on the errors of the two bearings together, in turns.
-const SLACK: f64 = 1e-5;
+const BEARINGS_ERROR: f64 = 1e-5;
 
 /// A disc as the sensor sees it from outside.
 #[derive(Clone, Copy)]
@@ -30,7 +30,7 @@ pub(super) fn raise_circle(circle: &Circle, view: &View, fan: &mut Fan) {
     if outside <= 0.0 || sqrt(d2) - r > view.reach {
         return;
     }
-    let (middle, half) = (turns(cx, cy) - view.heading, turns(sqrt(outside), r) + SLACK);
+    let (middle, half) = (turns(cx, cy) - view.heading, turns(sqrt(outside), r) + BEARINGS_ERROR);
     let forward = |turns: f64| if turns < 0.0 { turns + 1.0 } else { turns };
     let begin = forward(forward(middle) - half);
     let end = begin + 2.0 * half;

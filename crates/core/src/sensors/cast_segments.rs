@@ -2,7 +2,7 @@
 
 use super::rays::{Fan, Rays, each_block, each_ray, raised, some};
 use super::view::View;
-use super::wedges::{BATCH, Ready, kind};
+use super::wedges::{BATCH, PreparedSegments, kind};
 use crate::geometry::{Point2, Segment, orientation};
 use crate::num::{greater, lesser, sqrt};
 
@@ -16,8 +16,8 @@ const BITS: u32 = 26;
 
 /// The working memory for raising rays, kept from batch to batch.
 #[derive(Clone, Debug)]
-pub(super) struct Desk {
-    pub(super) ready: Ready,
+pub(super) struct RayMemory {
+    pub(super) ready: PreparedSegments,
     /// The numbers of the segments that can raise anything.
     able: [u32; BATCH],
     /// Pairs of a segment and a block all of whose rays are in the segment's wedge: the segment's number in the high
@@ -26,16 +26,16 @@ pub(super) struct Desk {
     within: [u32; BATCH * WIDE + WIDE],
 }
 
-impl Default for Desk {
+impl Default for RayMemory {
     fn default() -> Self {
-        Desk { ready: Ready::default(), able: [0; BATCH], within: [0; BATCH * WIDE + WIDE] }
+        RayMemory { ready: PreparedSegments::default(), able: [0; BATCH], within: [0; BATCH * WIDE + WIDE] }
     }
 }
 
 /// Raises the rays that meet the prepared segments.
 #[inline(always)]
-pub(super) fn raise_ready(desk: &mut Desk, [ax, ay, bx, by]: [&[f64]; 4], view: &View, fan: &mut Fan) {
-    let Desk { ready, able, within } = desk;
+pub(super) fn raise_ready(desk: &mut RayMemory, [ax, ay, bx, by]: [&[f64]; 4], view: &View, fan: &mut Fan) {
+    let RayMemory { ready, able, within } = desk;
     let blocks = &mut fan.blocks[..];
     let (open, nothing) = (fan.open, view.nothing);
     let (mut count, mut pairs) = (0, 0);

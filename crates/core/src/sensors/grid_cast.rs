@@ -1,13 +1,13 @@
 //! A scan of a large world: visits the grid's cells ring by ring outward, and skips those that only closed sectors see.
 
-use super::cast_segments::Desk;
+use super::cast_segments::RayMemory;
 use super::kernel::{Kernel, raise};
 use super::open_rays::Groups;
 use super::rays::Fan;
 use super::sectors;
 use super::view::View;
 use super::wedges::{BATCH, Batch};
-use crate::collision::{Cells, LANES, Place, SegmentSoup};
+use crate::collision::{Cells, GridCell, LANES, SegmentSoup};
 
 /// The boundary that a scan is cast at, and the grid over it.
 #[derive(Clone, Copy)]
@@ -54,7 +54,7 @@ impl Default for Walk {
 impl Pending {
     /// Raises the rays that meet the pending segments. If more are to come, fewer than eight are kept for later. That
     /// is safe: a ray only counts as open a little longer then.
-    fn raise(&mut self, more: bool, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+    fn raise(&mut self, more: bool, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut RayMemory) {
         let Pending { numbers, from, count, open, arrays } = self;
         let kept = if more { (*count - *from) % LANES } else { 0 };
         let [ax, ay, bx, by] = &mut **arrays;
@@ -86,7 +86,7 @@ impl Walk {
 
     /// Lists the cells of a ring that open sectors see and that are no farther than the root of `reach`, in cells.
     /// Rings beyond the precomputed ones are listed in full.
-    fn take_cells(&mut self, cells: &Cells, place: &Place, ring: i64, open: u64, reach: f64) {
+    fn take_cells(&mut self, cells: &Cells, place: &GridCell, ring: i64, open: u64, reach: f64) {
         if ring > sectors::LISTED {
             self.cells.clear();
             cells.each_in_ring(place, ring, |cell| self.cells.push(cell));
@@ -133,7 +133,14 @@ impl Walk {
     }
 
     /// Raises the rays that meet anything of the boundary.
-    pub(super) fn raise(&mut self, boundary: Boundary, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+    pub(super) fn raise(
+        &mut self,
+        boundary: Boundary,
+        view: &View,
+        kernel: &Kernel,
+        fan: &mut Fan,
+        desk: &mut RayMemory,
+    ) {
         let Boundary { soup, cells } = boundary;
         self.prepare(soup.segments().len() + soup.circles().len());
         self.groups.begin(fan, view);

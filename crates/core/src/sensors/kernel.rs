@@ -11,10 +11,10 @@
 use multiversion::multiversion;
 
 use super::cast_discs::raise_circle;
-use super::cast_segments::{Desk, raise_ready};
+use super::cast_segments::{RayMemory, raise_ready};
 use super::rays::{Fan, Lanes};
 use super::view::View;
-use super::wedges::{BATCH, Ready};
+use super::wedges::{BATCH, PreparedSegments};
 use crate::collision::Circle;
 use crate::geometry::SinCos;
 
@@ -24,9 +24,9 @@ pub(super) struct Kernel {
     /// Turns the directions of the sensor's frame by a heading.
     pub(super) turn: fn(&mut Fan, &[[Lanes; 2]], SinCos),
     /// Prepares segments.
-    pub(super) make: fn(&mut Ready, [&[f64]; 4], &View),
+    pub(super) make: fn(&mut PreparedSegments, [&[f64]; 4], &View),
     /// Raises the rays that meet the prepared segments.
-    pub(super) raise: fn(&mut Desk, [&[f64]; 4], &View, &mut Fan),
+    pub(super) raise: fn(&mut RayMemory, [&[f64]; 4], &View, &mut Fan),
     /// Raises the rays that meet a disc.
     pub(super) circle: fn(&Circle, &View, &mut Fan),
     /// Marks the blocks that have a ray that hits nothing within a box.
@@ -37,7 +37,7 @@ pub(super) struct Kernel {
 
 /// Raises every ray's inverse range to that of every segment it hits. The arrays of the ends' coordinates are padded to
 /// a multiple of eight.
-pub(super) fn raise([ax, ay, bx, by]: [&[f64]; 4], view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+pub(super) fn raise([ax, ay, bx, by]: [&[f64]; 4], view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut RayMemory) {
     for from in (0..ax.len()).step_by(BATCH) {
         let to = (from + BATCH).min(ax.len());
         let batch = [&ax[from..to], &ay[from..to], &bx[from..to], &by[from..to]];
@@ -61,12 +61,12 @@ macro_rules! kernel {
             }
 
             $(#[$target])?
-            fn make(ready: &mut Ready, segments: [&[f64]; 4], view: &View) {
+            fn make(ready: &mut PreparedSegments, segments: [&[f64]; 4], view: &View) {
                 ready.make(segments, view);
             }
 
             $(#[$target])?
-            fn raise(desk: &mut Desk, segments: [&[f64]; 4], view: &View, fan: &mut Fan) {
+            fn raise(desk: &mut RayMemory, segments: [&[f64]; 4], view: &View, fan: &mut Fan) {
                 raise_ready(desk, segments, view, fan);
             }
 

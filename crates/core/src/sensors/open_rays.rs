@@ -24,7 +24,7 @@ pub(super) struct Groups {
 const TURN: f64 = 4_294_967_296.0;
 
 /// An upper bound on the errors of the bearings, in that fixed point: 1e-5 turns.
-const SLACK: u32 = 42_950;
+const BEARING_ERROR: u32 = 42_950;
 
 /// A ray is closed when it hits nearer than the box's side by this fraction, which is more than the rounding of a hit.
 const NEARER: f64 = 1e-6;
@@ -53,8 +53,8 @@ impl Groups {
         self.sectors.clear();
         self.sectors.extend((0..count as u64).map(|g| {
             let begin = ((begin + step * g) >> 8) as u32;
-            let end = begin.wrapping_add((step >> 8) as u32).wrapping_add(SLACK);
-            let first = begin.wrapping_sub(SLACK) >> 26;
+            let end = begin.wrapping_add((step >> 8) as u32).wrapping_add(BEARING_ERROR);
+            let first = begin.wrapping_sub(BEARING_ERROR) >> 26;
             let more = (end >> 26).wrapping_sub(first) & 63;
             if all { u64::MAX } else { (u64::MAX >> (63 - more)).rotate_left(first) }
         }));

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::cast_segments::Desk;
+use super::cast_segments::RayMemory;
 use super::grid_cast::{Boundary, Walk};
 use super::kernel::{Kernel, raise};
 use super::rays::{Fan, Lanes};
@@ -35,7 +35,7 @@ pub struct Scanner {
     fan: Fan,
     others: SegmentSoup,
     walk: Walk,
-    desk: Box<Desk>,
+    desk: Box<RayMemory>,
 }
 
 impl Scanner {
@@ -157,7 +157,7 @@ fn may_hold(shape: &Placed, p: Point2) -> bool {
 }
 
 /// Raises the rays that meet anything of the soup.
-fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut Desk) {
+fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut RayMemory) {
     raise(soup.segments().arrays(), view, kernel, fan, desk);
     for circle in soup.circles() {
         (kernel.circle)(circle, view, fan);

@@ -8,7 +8,7 @@ use crate::num::{greater, lesser};
 
 /// A cell, by its offset from the sensor's cell: `i` columns and `j` rows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cell {
+pub(super) struct CellOffset {
     pub(super) i: i64,
     pub(super) j: i64,
     /// The sectors of the world, a bit for each of 64, in which it may lie, wherever the sensor is in one quarter of
@@ -22,13 +22,13 @@ pub(super) struct Cell {
 pub(super) const LISTED: i64 = 24;
 
 /// An upper bound on the errors of the bearings, in turns.
-const SLACK: f64 = 1e-5;
+const BEARING_ERROR: f64 = 1e-5;
 
 /// The listed cells, ring by ring, as seen from each quarter of the sensor's cell.
-static CELLS: LazyLock<[Vec<Cell>; 4]> = LazyLock::new(|| {
+static CELLS: LazyLock<[Vec<CellOffset>; 4]> = LazyLock::new(|| {
     [(0.25, 0.25), (0.75, 0.25), (0.25, 0.75), (0.75, 0.75)].map(|(x, y)| {
         let quarter = Point2::new(x, y);
-        (0..=LISTED).flat_map(around).map(|(i, j)| Cell::seen(quarter, i, j)).collect()
+        (0..=LISTED).flat_map(around).map(|(i, j)| CellOffset::seen(quarter, i, j)).collect()
     })
 });
 
@@ -42,7 +42,7 @@ fn around(ring: i64) -> impl Iterator<Item = (i64, i64)> {
 
 /// The cells of a ring up to [`LISTED`], in no particular order, as seen from one quarter of the sensor's cell: the
 /// right or the left one, the upper or the lower one.
-pub(super) fn ring(number: i64, right: bool, up: bool) -> &'static [Cell] {
+pub(super) fn ring(number: i64, right: bool, up: bool) -> &'static [CellOffset] {
     let before = |ring: i64| (if ring > 0 { (2 * ring - 1) * (2 * ring - 1) } else { 0 }) as usize;
     let seen = &CELLS[usize::from(right) + 2 * usize::from(up)];
     seen.get(before(number)..before(number + 1)).unwrap_or_default()
@@ -59,14 +59,14 @@ fn sectors_between(begin: f64, end: f64) -> u64 {
 /// How far a cell and a quarter of the sensor's cell together reach from their middles, in cells: 0.5 + 0.25.
 const REACH: f64 = 0.75;
 
-impl Cell {
+impl CellOffset {
     /// The cell with the offset `i`, `j`, as seen from anywhere in the quarter of the sensor's cell with this middle.
     /// Seen so, it lies in a box that reaches [`REACH`] from its own middle. Lengths are in cells.
     fn seen(quarter: Point2, i: i64, j: i64) -> Self {
         let middle = Vector2::new(i as f64 + 0.5 - quarter.x, j as f64 + 0.5 - quarter.y);
         let apart = |x: f64| greater(x.abs() - REACH, 0.0) * (1.0 - 1e-9);
         let (across, along) = (apart(middle.x), apart(middle.y));
-        Cell { i, j, sectors: sectors(middle), near: across * across + along * along }
+        CellOffset { i, j, sectors: sectors(middle), near: across * across + along * along }
     }
 }
 
@@ -89,7 +89,7 @@ fn sectors(point: Vector2) -> u64 {
         }
     });
     let (least, most) = (off.into_iter().fold(0.0, lesser), off.into_iter().fold(0.0, greater));
-    sectors_between(middle + least - SLACK, middle + most + SLACK)
+    sectors_between(middle + least - BEARING_ERROR, middle + most + BEARING_ERROR)
 }
 
 #[cfg(test)]
@@ -119,7 +119,7 @@ mod tests {
         }
     }
 
-    fn quarters() -> impl Iterator<Item = (&'static Cell, bool, bool)> {
+    fn quarters() -> impl Iterator<Item = (&'static CellOffset, bool, bool)> {
         let all = |right, up| (0..=LISTED).flat_map(move |n| ring(n, right, up)).map(move |cell| (cell, right, up));
         all(false, false).chain(all(true, false)).chain(all(false, true)).chain(all(true, true))
     }

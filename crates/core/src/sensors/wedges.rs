@@ -1,11 +1,11 @@
-//! `Ready`, a batch of segments prepared for a scan.
+//! `PreparedSegments`, a batch of segments prepared for a scan.
 
 use super::view::View;
 use crate::collision::LANES;
 use crate::num::{greater, lesser};
 
 /// An upper bound on the error of [`turns`], in turns.
-const SLACK: f64 = 4e-6;
+const TURNS_ERROR: f64 = 4e-6;
 
 /// Where p x q is below this fraction of its two products, the exact predicate decides.
 const DOUBT: f64 = 1e-8;
@@ -37,7 +37,7 @@ pub(super) const BATCH: usize = 64;
 /// One number for each segment of a batch.
 pub(super) type Batch = [f64; BATCH];
 
-/// What is known of a prepared segment: see [`Ready::span`].
+/// What is known of a prepared segment: see [`PreparedSegments::span`].
 pub(super) mod kind {
     /// No ray can meet it: it is out of reach, or an unused place.
     pub(in super::super) const NONE: u64 = 0;
@@ -67,7 +67,7 @@ pub(super) struct Wedge {
 /// Prepared segments: for each the wedge, the two coefficients of the inverse range, and the blocks of eight rays that
 /// may meet it.
 #[derive(Clone, Debug)]
-pub(super) struct Ready {
+pub(super) struct PreparedSegments {
     px: Batch,
     py: Batch,
     qx: Batch,
@@ -81,10 +81,10 @@ pub(super) struct Ready {
     turned: Batch,
 }
 
-impl Default for Ready {
+impl Default for PreparedSegments {
     fn default() -> Self {
         let [px, py, qx, qy, a, b, turned] = [[0.0; BATCH]; 7];
-        Ready { px, py, qx, qy, a, b, span: [0; BATCH], turned }
+        PreparedSegments { px, py, qx, qy, a, b, span: [0; BATCH], turned }
     }
 }
 
@@ -97,7 +97,7 @@ fn whole(x: f64) -> u64 {
     x.to_bits() & ((1 << BITS) - 1)
 }
 
-impl Ready {
+impl PreparedSegments {
     /// The wedge of segment number `k`.
     #[inline(always)]
     pub(super) fn wedge(&self, k: usize) -> Wedge {
@@ -166,12 +166,12 @@ impl Ready {
             let wide = turns(qx, qy) - p;
             let wide = if wide < -0.25 { wide + 1.0 } else { wide };
             let begin = p - view.heading;
-            let begin = if begin < SLACK { begin + 1.0 } else { begin };
+            let begin = if begin < TURNS_ERROR { begin + 1.0 } else { begin };
             let end = begin + wide;
-            let over = end + SLACK - 1.0;
-            let (first, last) = (down(begin - SLACK), down(end + SLACK));
+            let over = end + TURNS_ERROR - 1.0;
+            let (first, last) = (down(begin - TURNS_ERROR), down(end + TURNS_ERROR));
             // all rays of the blocks after this one and before that one are in the wedge
-            let (inner, outer) = (up(begin + SLACK), down(end - SLACK));
+            let (inner, outer) = (up(begin + TURNS_ERROR), down(end - TURNS_ERROR));
             let sure = (inner == first + 1.0) & (outer == last) & (over < 0.0);
             let kind = if sure { kind::SURE } else { kind::UNSURE };
             let kind = if doubt { kind::DOUBTFUL } else { kind };

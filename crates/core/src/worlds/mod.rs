@@ -98,7 +98,7 @@ pub use grid::distance_transform::DistanceTransform;
 pub use grid::ros_export::RosFiles;
 pub use grid::voronoi::VoronoiDiagram;
 pub use limits::{MAX_ITEMS, WORLD_VERSION};
-pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, World, Written};
+pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, SourceShape, World};
 pub use route::{MAX_ROUTE_POINTS, ROUTE_RADII, ROUTE_SPEEDS, Route, RouteError, RoutePath};
 #[doc(hidden)]
 pub use sensor::check_mount;

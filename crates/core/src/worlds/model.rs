@@ -40,7 +40,7 @@ pub struct Outline {
 
 /// A shape of an obstacle as it was written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Written<'a> {
+pub enum SourceShape<'a> {
     /// A concave polygon.
     Outline(&'a [Point2]),
     /// Anything else.
@@ -168,17 +168,17 @@ impl Obstacle {
     }
 
     /// Returns the shapes as written, in order: an outline for each concave polygon, a piece for every other shape.
-    pub fn written(&self) -> Vec<Written<'_>> {
+    pub fn written(&self) -> Vec<SourceShape<'_>> {
         let mut written = Vec::new();
         let mut at = 0;
         while let Some(piece) = self.pieces.get(at) {
             match self.outlines.iter().find(|outline| outline.first == at && self.is_own(outline)) {
                 Some(outline) => {
-                    written.push(Written::Outline(&outline.points));
+                    written.push(SourceShape::Outline(&outline.points));
                     at += outline.pieces;
                 }
                 None => {
-                    written.push(Written::Piece(piece));
+                    written.push(SourceShape::Piece(piece));
                     at += 1;
                 }
             }

@@ -6,6 +6,7 @@ mod arcs;
 mod certificates;
 mod edges;
 mod jackknife;
+mod proofs;
 mod rates;
 mod sweeps;
 mod tangents;

@@ -3,7 +3,7 @@
 use motion_lab_core::geometry::Shape;
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{
-    AnyRobot, Bound, ConfigurationError, PartRates, RatesError, RatesUse, TICK, check_drive_rates, check_rates,
+    AnyRobot, ConfigurationError, MotionBound, PartRates, RatesError, RatesUse, TICK, check_drive_rates, check_rates,
 };
 
 /// Edges of each robot.
@@ -100,8 +100,8 @@ impl<R: Robot> Robot for Wrong<R> {
 /// A bound a percent too small is found, and the error says where: measured there again, the part does move more.
 #[track_caller]
 fn found<R: Robot>(robot: R, part: usize) {
-    for bound in [Bound::Speed, Bound::Acceleration] {
-        let (speed, acceleration) = if bound == Bound::Speed { (0.99, 1.0) } else { (1.0, 0.99) };
+    for bound in [MotionBound::Speed, MotionBound::Acceleration] {
+        let (speed, acceleration) = if bound == MotionBound::Speed { (0.99, 1.0) } else { (1.0, 0.99) };
         let wrong = Wrong::of(robot.clone(), part, speed, acceleration);
         let error = check_rates(&wrong, SAMPLES).unwrap_err();
         let RatesError::Exceeded { bound: which, part: k, from, to, s, measured, claimed } = error else {
@@ -110,7 +110,7 @@ fn found<R: Robot>(robot: R, part: usize) {
         assert_eq!((which, k), (bound, part));
         assert!(measured > claimed && measured < 1.02 * claimed, "{measured} {claimed}");
         let rates = robot.edge_rates(&from, &to).unwrap()[part];
-        let right = if bound == Bound::Speed { rates.speed } else { rates.acceleration };
+        let right = if bound == MotionBound::Speed { rates.speed } else { rates.acceleration };
         assert!((claimed - 0.99 * right).abs() < 1e-9 * right && measured <= right * (1.0 + 1e-6), "{right}");
         // a place nearby, by other differences
         let h = 1e-3;
@@ -118,8 +118,8 @@ fn found<R: Robot>(robot: R, part: usize) {
         let at = [s - h, s, s + h].map(|s| edge.footprint_at(s).parts()[part].placed().core().to_vec());
         let greatest = (0..at[0].len()).fold(0.0_f64, |most, v| {
             let change = match bound {
-                Bound::Speed => (at[2][v] - at[0][v]).norm() / (2.0 * h),
-                Bound::Acceleration => ((at[2][v] - at[1][v]) - (at[1][v] - at[0][v])).norm() / (h * h),
+                MotionBound::Speed => (at[2][v] - at[0][v]).norm() / (2.0 * h),
+                MotionBound::Acceleration => ((at[2][v] - at[1][v]) - (at[1][v] - at[0][v])).norm() / (h * h),
             };
             if change > most { change } else { most }
         });
@@ -136,7 +136,7 @@ fn a_bound_one_percent_too_small_is_found_in_every_part() {
     found(Reach::<3>::redundant(), 2);
     found(HITCH, 0);
     let disc = Wrong::of(RustyDisc::default(), 0, 0.99, 1.0);
-    assert!(matches!(check_rates(&disc, 100), Err(RatesError::Exceeded { bound: Bound::Speed, part: 0, .. })));
+    assert!(matches!(check_rates(&disc, 100), Err(RatesError::Exceeded { bound: MotionBound::Speed, part: 0, .. })));
 }
 
 #[test]
@@ -145,7 +145,9 @@ fn what_is_missing_not_finite_or_of_another_shape_is_refused() {
     missing.dropped = 1;
     let error = check_rates(&missing, SAMPLES).unwrap_err();
     assert!(matches!(error, RatesError::Parts { rates: 1, parts: 2, .. }), "{error}");
-    for (speed, acceleration, which) in [(f64::NAN, 1.0, Bound::Speed), (1.0, f64::NAN, Bound::Acceleration)] {
+    for (speed, acceleration, which) in
+        [(f64::NAN, 1.0, MotionBound::Speed), (1.0, f64::NAN, MotionBound::Acceleration)]
+    {
         let error = check_rates(&Wrong::of(HITCH, 0, speed, acceleration), 10).unwrap_err();
         assert!(matches!(error, RatesError::Exceeded { bound, .. } if bound == which), "{error}");
     }

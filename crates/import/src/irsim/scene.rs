@@ -2,15 +2,15 @@
 
 use super::shape::IrShape;
 use crate::error::wrong_value;
-use crate::yaml::{self, Fields, Node, Value};
-use crate::{Draft, ImportError, ImportProblem, Imported};
+use crate::yaml::{self, Fields, YamlNode, YamlValue};
+use crate::{ImportError, ImportProblem, Imported, WorldDraft};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::geometry::Pose2;
 
 /// Keys that describe how a simulation runs or looks, not its geometry.
-const WORLD_ASIDE: [&str; 7] =
+const IGNORED_OF_WORLD: [&str; 7] =
     ["step_time", "sample_time", "step_mode", "control_mode", "collision_mode", "plot", "status"];
-const OBSTACLE_ASIDE: [&str; 4] = ["color", "plot", "description", "role"];
+const IGNORED_OF_OBSTACLE: [&str; 4] = ["color", "plot", "description", "role"];
 const OBSTACLE_KEYS: &str =
     "shape, state, number, distribution, name, unobstructed, and color, plot, description, role";
 
@@ -33,7 +33,7 @@ pub fn irsim(file: &str, text: &str, name: &str) -> Result<Imported, ImportError
 fn read(text: &str, name: &str) -> Result<Imported, ImportError> {
     let tree = yaml::read(text)?;
     let mut sections = tree.fields("")?;
-    let mut draft = Draft::default();
+    let mut draft = WorldDraft::default();
     let world = sections.need("world")?;
     let [min, max] = bounds(world, &mut draft)?;
     for (item, node) in objects(sections.take("obstacle"), "obstacle") {
@@ -42,13 +42,13 @@ fn read(text: &str, name: &str) -> Result<Imported, ImportError> {
     for (item, node) in objects(sections.take("robot"), "robot") {
         robots(&item, node, &mut draft)?;
     }
-    aside(&mut sections, "", &["gui"], &mut draft);
+    note_ignored(&mut sections, "", &["gui"], &mut draft);
     sections.finish("world, robot and obstacle")?;
     draft.finish(name, min, max).map_err(|problem| ImportError::at(world.line, "world", problem))
 }
 
 /// The corners of the world.
-fn bounds(node: &Node, draft: &mut Draft) -> Result<[(f64, f64); 2], ImportError> {
+fn bounds(node: &YamlNode, draft: &mut WorldDraft) -> Result<[(f64, f64); 2], ImportError> {
     let mut fields = node.fields("world")?;
     let mut side = |key: &'static str| match fields.take(key) {
         None => Ok(10.0), // IR-SIM's own default
@@ -62,16 +62,16 @@ fn bounds(node: &Node, draft: &mut Draft) -> Result<[(f64, f64); 2], ImportError
         None => vec![0.0, 0.0],
         Some(node) => node.numbers("world.offset", 2..=2, "two numbers: x, y")?,
     };
-    aside(&mut fields, "world.", &WORLD_ASIDE, draft);
+    note_ignored(&mut fields, "world.", &IGNORED_OF_WORLD, draft);
     fields.finish("width, height and offset")?;
     Ok([(offset[0], offset[1]), (offset[0] + width, offset[1] + height)])
 }
 
 /// The objects of a section: a list of them, or one by itself.
-fn objects<'a>(section: Option<&'a Node>, name: &str) -> Vec<(String, &'a Node)> {
+fn objects<'a>(section: Option<&'a YamlNode>, name: &str) -> Vec<(String, &'a YamlNode)> {
     match section {
         None => Vec::new(),
-        Some(Node { value: Value::List(nodes), .. }) => {
+        Some(YamlNode { value: YamlValue::List(nodes), .. }) => {
             nodes.iter().enumerate().map(|(i, node)| (format!("{name}[{i}]"), node)).collect()
         }
         Some(node) => vec![(name.to_owned(), node)],
@@ -79,7 +79,7 @@ fn objects<'a>(section: Option<&'a Node>, name: &str) -> Vec<(String, &'a Node)>
 }
 
 /// Takes the keys that are left out and adds a note for each.
-fn aside(fields: &mut Fields, item: &str, keys: &[&str], draft: &mut Draft) {
+fn note_ignored(fields: &mut Fields, item: &str, keys: &[&str], draft: &mut WorldDraft) {
     for key in keys {
         if fields.take(key).is_some() {
             draft.note(format!("{item}{key} is left out"));
@@ -87,7 +87,7 @@ fn aside(fields: &mut Fields, item: &str, keys: &[&str], draft: &mut Draft) {
     }
 }
 
-fn obstacles(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportError> {
+fn obstacles(item: &str, node: &YamlNode, draft: &mut WorldDraft) -> Result<(), ImportError> {
     let mut fields = node.fields(item)?;
     for (key, what) in [
         ("kinematics", "an obstacle that moves"),
@@ -101,7 +101,7 @@ fn obstacles(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportErr
     let states = states(item, &mut fields)?;
     let shape = fields.need("shape")?;
     let shapes = match &shape.value {
-        Value::List(nodes) if !nodes.is_empty() => nodes.iter().collect(),
+        YamlValue::List(nodes) if !nodes.is_empty() => nodes.iter().collect(),
         _ => vec![shape],
     };
     let shapes =
@@ -115,7 +115,7 @@ fn obstacles(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportErr
         },
     };
     let name = fields.take("name").map(|node| node.text(&format!("{item}.name"))).transpose()?;
-    aside(&mut fields, "obstacle.", &OBSTACLE_ASIDE, draft);
+    note_ignored(&mut fields, "obstacle.", &IGNORED_OF_OBSTACLE, draft);
     fields.finish(OBSTACLE_KEYS)?;
     for (i, state) in states.iter().enumerate() {
         // with fewer shapes than states, the last shape is used again
@@ -129,7 +129,7 @@ fn obstacles(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportErr
     Ok(())
 }
 
-fn robots(item: &str, node: &Node, draft: &mut Draft) -> Result<(), ImportError> {
+fn robots(item: &str, node: &YamlNode, draft: &mut WorldDraft) -> Result<(), ImportError> {
     let mut fields = node.fields(item)?;
     let kinematics = fields.need("kinematics")?;
     let mut model = kinematics.fields(&format!("{item}.kinematics"))?;
@@ -185,10 +185,10 @@ fn states(item: &str, fields: &mut Fields) -> Result<Vec<Pose2>, ImportError> {
 
 /// Reads one pose, or a list of poses: `[x, y]` or `[x, y, theta]`. A fourth number, a car's steering angle, is
 /// ignored.
-fn poses(item: &str, node: &Node) -> Result<Vec<Pose2>, ImportError> {
+fn poses(item: &str, node: &YamlNode) -> Result<Vec<Pose2>, ImportError> {
     let nodes = node.list(item)?;
-    let several = nodes.iter().any(|n| matches!(n.value, Value::List(_)));
-    let pose = |node: &Node| {
+    let several = nodes.iter().any(|n| matches!(n.value, YamlValue::List(_)));
+    let pose = |node: &YamlNode| {
         let numbers = node.numbers(item, 2..=4, "two to four numbers: x, y, theta")?;
         Ok(Pose2::new(numbers[0], numbers[1], numbers.get(2).copied().unwrap_or(0.0)))
     };

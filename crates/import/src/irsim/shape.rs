@@ -1,7 +1,7 @@
 //! The shapes of IR-SIM's objects.
 
-use crate::yaml::Node;
-use crate::{Draft, ImportError};
+use crate::yaml::YamlNode;
+use crate::{ImportError, WorldDraft};
 use motion_lab_core::geometry::{Point2, Pose2};
 use motion_lab_core::worlds::{ShapeText, WorldProblem, Xy};
 
@@ -15,7 +15,7 @@ pub(crate) enum IrShape {
 
 impl IrShape {
     /// Reads a shape. Errors name it `item`.
-    pub fn read(item: &str, node: &Node) -> Result<IrShape, ImportError> {
+    pub fn read(item: &str, node: &YamlNode) -> Result<IrShape, ImportError> {
         let mut fields = node.fields(item)?;
         let name = fields.need("name")?;
         let (shape, known) = match name.text(item)? {
@@ -54,7 +54,7 @@ impl IrShape {
 
     /// Adds an object of this shape with its frame at `pose`; if `painted`, as a mark. A painted circle is left out,
     /// with a note.
-    pub fn put(&self, pose: &Pose2, painted: bool, name: String, draft: &mut Draft) -> Result<(), WorldProblem> {
+    pub fn put(&self, pose: &Pose2, painted: bool, name: String, draft: &mut WorldDraft) -> Result<(), WorldProblem> {
         let place = |p: &Point2| {
             // without a rotation the coordinates are only added
             let placed = if pose.theta == 0.0 { p + pose.position().coords } else { pose.transform(*p) };
@@ -93,7 +93,7 @@ impl IrShape {
     }
 }
 
-fn point(item: &str, node: &Node) -> Result<Point2, ImportError> {
+fn point(item: &str, node: &YamlNode) -> Result<Point2, ImportError> {
     let numbers = node.numbers(item, 2..=2, "two numbers: x, y")?;
     Ok(Point2::new(numbers[0], numbers[1]))
 }

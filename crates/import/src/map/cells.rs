@@ -1,7 +1,7 @@
-//! `CellMap`, a map of cells, and its conversion to a world.
+//! `OccupancyMap`, a map of cells, and its conversion to a world.
 
-use super::trace::{Corner, trace};
-use crate::{Draft, ImportError, ImportProblem, Imported};
+use super::trace::{BorderCorner, trace};
+use crate::{ImportError, ImportProblem, Imported, WorldDraft};
 use motion_lab_core::geometry::{MIN_FEATURE, Point2, Pose2};
 use motion_lab_core::num::{greater, lesser};
 use motion_lab_core::worlds::{Grid, MAX_CELLS, MAX_ITEMS, ShapeText, WorldProblem, Xy};
@@ -21,14 +21,14 @@ pub enum CellStyle {
 #[derive(Clone, Copy)]
 struct Rectangle {
     /// Its lower left corner.
-    low: Corner,
+    low: BorderCorner,
     /// Its upper right corner.
-    high: Corner,
+    high: BorderCorner,
 }
 
 /// A map of occupied cells.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CellMap {
+pub struct OccupancyMap {
     /// The cells.
     pub grid: Grid,
     /// The pose of the grid's frame in the world. If it is the identity, the cells' corners are the grid's own, to the
@@ -38,7 +38,7 @@ pub struct CellMap {
     pub notes: Vec<String>,
 }
 
-impl CellMap {
+impl OccupancyMap {
     /// Creates a world in which the occupied cells are obstacles. Its bounds enclose the map, and every edge of an
     /// obstacle lies on borders of cells.
     ///
@@ -46,7 +46,7 @@ impl CellMap {
     /// [`ImportError`] if there are too many edges or boxes for a world, coordinates are too large, cells are smaller
     /// than [`MIN_FEATURE`], or no cell is occupied. `file` is the map's name in errors.
     pub fn world(&self, file: &str, name: &str, style: CellStyle) -> Result<Imported, ImportError> {
-        let mut draft = Draft::default();
+        let mut draft = WorldDraft::default();
         self.notes.iter().for_each(|note| draft.note(note));
         let obstacles = match style {
             CellStyle::Solid => self.boxes(&mut draft),
@@ -63,7 +63,7 @@ impl CellMap {
         }
     }
 
-    fn walls(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
+    fn walls(&self, draft: &mut WorldDraft) -> Result<(), WorldProblem> {
         let lines = trace(&self.grid);
         if !lines.is_empty() {
             draft.note("the occupied cells are hollow: a robot put inside their walls touches nothing");
@@ -74,12 +74,12 @@ impl CellMap {
         })
     }
 
-    fn boxes(&self, draft: &mut Draft) -> Result<(), WorldProblem> {
+    fn boxes(&self, draft: &mut WorldDraft) -> Result<(), WorldProblem> {
         for Rectangle { low, high } in rectangles(&self.grid) {
             let shape = if self.frame == Pose2::IDENTITY {
                 ShapeText::Box { min: self.corner(low), max: self.corner(high) }
             } else {
-                let corners = [low, Corner { row: low.row, ..high }, high, Corner { row: high.row, ..low }];
+                let corners = [low, BorderCorner { row: low.row, ..high }, high, BorderCorner { row: high.row, ..low }];
                 ShapeText::Polygon(corners.map(|c| self.corner(c)).to_vec())
             };
             let name = draft.world.numbered("box");
@@ -89,7 +89,7 @@ impl CellMap {
     }
 
     /// A corner of cells in the world.
-    fn corner(&self, of: Corner) -> Xy {
+    fn corner(&self, of: BorderCorner) -> Xy {
         let at = self.grid.corner(of.column, of.row);
         let at = if self.frame == Pose2::IDENTITY { at } else { self.frame.transform(at) };
         (at.x, at.y)
@@ -98,7 +98,7 @@ impl CellMap {
     fn bounds(&self) -> (Xy, Xy) {
         let (right, top) = (self.grid.columns(), self.grid.rows());
         let [first, rest @ ..] =
-            [(0, 0), (right, 0), (right, top), (0, top)].map(|(column, row)| self.corner(Corner { column, row }));
+            [(0, 0), (right, 0), (right, top), (0, top)].map(|(column, row)| self.corner(BorderCorner { column, row }));
         rest.iter().fold((first, first), |(min, max), p| {
             ((lesser(p.0, min.0), lesser(p.1, min.1)), (greater(p.0, max.0), greater(p.1, max.1)))
         })
@@ -115,7 +115,7 @@ fn rectangles(grid: &Grid) -> Vec<Rectangle> {
     }
     for Rectangle { low, high } in &mut up {
         for corner in [low, high] {
-            *corner = Corner { column: corner.row, row: corner.column };
+            *corner = BorderCorner { column: corner.row, row: corner.column };
         }
     }
     up
@@ -140,7 +140,7 @@ fn grown(columns: u32, rows: u32, is_occupied: impl Fn(u32, u32) -> bool) -> Vec
             for r in row..top {
                 left[index(column, r)..index(end - 1, r) + 1].fill(false);
             }
-            found.push(Rectangle { low: Corner { column, row }, high: Corner { column: end, row: top } });
+            found.push(Rectangle { low: BorderCorner { column, row }, high: BorderCorner { column: end, row: top } });
             if found.len() > MAX_ITEMS {
                 return found; // more than a world holds
             }

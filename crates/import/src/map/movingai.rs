@@ -2,7 +2,7 @@
 
 use super::cells::{check_size, grid_of};
 use crate::error::wrong_value;
-use crate::{CellMap, ImportError, ImportProblem};
+use crate::{ImportError, ImportProblem, OccupancyMap};
 use motion_lab_core::geometry::{Point2, Pose2};
 
 /// Reads a MovingAI map with cells of `resolution` metres: `.`, `G` and `S` are free; `@`, `O`, `T` and `W` are
@@ -19,11 +19,11 @@ use motion_lab_core::geometry::{Point2, Pose2};
 /// assert_eq!(yard.obstacles.len(), 1); // one box over one cell, from (0.5, 0) to (1, 0.5)
 /// # Ok::<(), motion_lab_import::ImportError>(())
 /// ```
-pub fn movingai(file: &str, text: &str, resolution: f64) -> Result<CellMap, ImportError> {
+pub fn movingai(file: &str, text: &str, resolution: f64) -> Result<OccupancyMap, ImportError> {
     read(text, resolution).map_err(|error| error.of(file))
 }
 
-fn read(text: &str, resolution: f64) -> Result<CellMap, ImportError> {
+fn read(text: &str, resolution: f64) -> Result<OccupancyMap, ImportError> {
     let mut lines = (1..).zip(text.lines().map(str::trim_end));
     let mut head = |key: &'static str| {
         let (line, text) = lines.next().ok_or_else(|| ImportError::at(0, "", ImportProblem::Missing(key)))?;
@@ -74,7 +74,7 @@ fn read(text: &str, resolution: f64) -> Result<CellMap, ImportError> {
         Ok(cells)
     };
     let grid = grid_of(Point2::origin(), resolution, columns, rows, cells)?;
-    Ok(CellMap { grid, frame: Pose2::IDENTITY, notes: vec![] })
+    Ok(OccupancyMap { grid, frame: Pose2::IDENTITY, notes: vec![] })
 }
 
 const HEAD: &str = "the head of a MovingAI map: lines `type octile`, `height H`, `width W` and `map`";

@@ -15,12 +15,12 @@ pub(crate) struct Pgm {
 }
 
 /// The words of a head or of a P2 raster, comments left out.
-struct Words<'a> {
+struct PgmWords<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
-impl<'a> Words<'a> {
+impl<'a> PgmWords<'a> {
     fn next(&mut self) -> Option<&'a [u8]> {
         loop {
             match self.bytes.get(self.at)? {
@@ -58,7 +58,7 @@ impl Pgm {
                 return Err(ImportError::at(0, "", ImportProblem::Syntax(problem.into())));
             }
         };
-        let mut words = Words { bytes, at: 2 };
+        let mut words = PgmWords { bytes, at: 2 };
         let columns = words.number("width", u64::MAX, "a whole number from 1 on")?;
         let rows = words.number("height", u64::MAX, "a whole number from 1 on")?;
         let max = words.number("the value of white", 65535, "a whole number from 1 to 65535")? as u16;
@@ -77,7 +77,7 @@ impl Pgm {
     }
 }
 
-fn plain_raster(words: &mut Words, expected: u64, max: u16) -> Result<Vec<u16>, ImportError> {
+fn plain_raster(words: &mut PgmWords, expected: u64, max: u16) -> Result<Vec<u16>, ImportError> {
     let mut pixels = Vec::new();
     while let Some(word) = words.next() {
         let text = String::from_utf8_lossy(word);

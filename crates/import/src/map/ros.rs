@@ -3,7 +3,7 @@
 use super::cells::grid_of;
 use super::pgm::Pgm;
 use crate::error::wrong_value;
-use crate::{CellMap, ImportError, yaml};
+use crate::{ImportError, OccupancyMap, yaml};
 use motion_lab_core::geometry::{Point2, Pose2};
 
 /// The head of a ROS map: its yaml file.
@@ -105,11 +105,11 @@ impl RosMap {
     ///
     /// # Errors
     /// [`ImportError`]: bytes that are not a graymap, a graymap cut short, or a size that no grid may have.
-    pub fn cells(&self, file: &str, image: &[u8], unknown: Unknown) -> Result<CellMap, ImportError> {
+    pub fn cells(&self, file: &str, image: &[u8], unknown: Unknown) -> Result<OccupancyMap, ImportError> {
         self.read_cells(image, unknown).map_err(|error| error.of(file))
     }
 
-    fn read_cells(&self, image: &[u8], unknown: Unknown) -> Result<CellMap, ImportError> {
+    fn read_cells(&self, image: &[u8], unknown: Unknown) -> Result<OccupancyMap, ImportError> {
         let Pgm { columns, rows, max, pixels } = Pgm::read(image)?;
         let mut unknowns = 0_usize;
         let cells: Vec<bool> = pixels
@@ -134,7 +134,7 @@ impl RosMap {
             Unknown::Free => "free",
         };
         let notes = if unknowns == 0 { vec![] } else { vec![format!("unknown cells, taken as {taken}: {unknowns}")] };
-        Ok(CellMap { grid, frame, notes })
+        Ok(OccupancyMap { grid, frame, notes })
     }
 
     /// Whether a pixel is occupied; `None` if it is unknown.

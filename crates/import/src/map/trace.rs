@@ -4,7 +4,7 @@ use motion_lab_core::worlds::Grid;
 
 /// A corner of cells: the lower left one of the cell in this column and row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Corner {
+pub(crate) struct BorderCorner {
     /// The upright grid line it lies on, from the left.
     pub(crate) column: u32,
     /// The level grid line it lies on, from below.
@@ -13,17 +13,17 @@ pub(crate) struct Corner {
 
 /// The direction in which a border runs, with the occupied cell on its left.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Way {
+enum BorderDirection {
     East,
     North,
     West,
     South,
 }
 
-use Way::{East, North, South, West};
+use BorderDirection::{East, North, South, West};
 
-impl Way {
-    fn left(self) -> Way {
+impl BorderDirection {
+    fn left(self) -> BorderDirection {
         match self {
             East => North,
             North => West,
@@ -32,17 +32,17 @@ impl Way {
         }
     }
 
-    fn right(self) -> Way {
+    fn right(self) -> BorderDirection {
         self.left().left().left()
     }
 
-    fn step(self, from: Corner) -> Corner {
-        let Corner { column, row } = from;
+    fn step(self, from: BorderCorner) -> BorderCorner {
+        let BorderCorner { column, row } = from;
         match self {
-            East => Corner { column: column + 1, row },
-            North => Corner { column, row: row + 1 },
-            West => Corner { column: column - 1, row },
-            South => Corner { column, row: row - 1 },
+            East => BorderCorner { column: column + 1, row },
+            North => BorderCorner { column, row: row + 1 },
+            West => BorderCorner { column: column - 1, row },
+            South => BorderCorner { column, row: row - 1 },
         }
     }
 
@@ -62,20 +62,20 @@ impl Way {
 /// Occupied cells lie on its left, so outer borders run counter-clockwise. Everything outside the grid counts as free.
 ///
 /// The lines are in the order of their lowest, leftmost edges. Cells that meet only in a corner have separate lines.
-pub(crate) fn trace(grid: &Grid) -> Vec<Vec<Corner>> {
+pub(crate) fn trace(grid: &Grid) -> Vec<Vec<BorderCorner>> {
     let (columns, rows) = (grid.columns(), grid.rows());
-    let occupied = |at: Corner, (dx, dy): (u32, u32)| match (at.column.checked_sub(dx), at.row.checked_sub(dy)) {
+    let occupied = |at: BorderCorner, (dx, dy): (u32, u32)| match (at.column.checked_sub(dx), at.row.checked_sub(dy)) {
         (Some(column), Some(row)) => column < columns && row < rows && grid.is_occupied(column, row),
         _ => false,
     };
-    let is_lower_border = |at: Corner| occupied(at, (0, 0)) && !occupied(at, (0, 1));
+    let is_lower_border = |at: BorderCorner| occupied(at, (0, 0)) && !occupied(at, (0, 1));
     // every closed line runs east somewhere: below an occupied cell
     let mut traced = vec![false; columns as usize * rows as usize];
-    let index = |at: Corner| at.row as usize * columns as usize + at.column as usize;
+    let index = |at: BorderCorner| at.row as usize * columns as usize + at.column as usize;
     let mut lines = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
-            let start = Corner { column, row };
+            let start = BorderCorner { column, row };
             if !is_lower_border(start) || traced[index(start)] {
                 continue;
             }
@@ -120,8 +120,8 @@ mod tests {
         Grid::of_cells(Point2::origin(), 1.0, rows[0].len() as u32, rows.len() as u32, rows.concat()).unwrap()
     }
 
-    fn corners(at: &[(u32, u32)]) -> Vec<Corner> {
-        at.iter().map(|&(column, row)| Corner { column, row }).collect()
+    fn corners(at: &[(u32, u32)]) -> Vec<BorderCorner> {
+        at.iter().map(|&(column, row)| BorderCorner { column, row }).collect()
     }
 
     #[test]

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use usvg::roxmltree::{Document, Node};
 
 use super::check::{DEEPEST, SVG, at};
-use super::css::{declarations, kept, style_sheet};
+use super::css::{declarations, style_sheet, supported_value};
 use super::scan::MAX_ELEMENTS;
 use crate::{ImportError, ImportProblem};
 
@@ -77,7 +77,7 @@ fn is_svg(node: &Node, name: &str) -> bool {
 }
 
 /// Whether an element is kept.
-fn is_kept(node: &Node) -> bool {
+fn is_supported(node: &Node) -> bool {
     let name = node.tag_name().name();
     node.tag_name().namespace() == Some(SVG) && (name == "style" || ELEMENTS.contains(&name))
 }
@@ -100,7 +100,7 @@ struct Writer {
 impl Writer {
     /// Writes an element with its children. The recursion ends: the depth has been checked.
     fn element(&mut self, node: Node) -> Result<(), ImportError> {
-        if !is_kept(&node) {
+        if !is_supported(&node) {
             return Ok(());
         }
         let name = node.tag_name().name();
@@ -130,7 +130,7 @@ impl Writer {
                 self.attribute(name, &style);
             } else if ATTRIBUTES.contains(&name) {
                 self.attribute(name, value);
-            } else if let Some(value) = kept(name, value).map_err(|problem| at(node, problem))? {
+            } else if let Some(value) = supported_value(name, value).map_err(|problem| at(node, problem))? {
                 self.attribute(name, value);
             }
         }
@@ -185,7 +185,7 @@ fn expand<'a>(
     depth: usize,
     left: &mut Left,
 ) -> Result<(), ImportError> {
-    if !is_kept(&node) {
+    if !is_supported(&node) {
         return Ok(());
     }
     let refuse = |what: String| at(node, ImportProblem::Unsupported(what));

@@ -32,7 +32,7 @@ pub(crate) struct StyleSheet {
 ///
 /// # Errors
 /// [`ImportProblem::Unsupported`] for a clip path or a mask.
-pub(crate) fn kept<'a>(name: &str, value: &'a str) -> Result<Option<&'a str>, ImportProblem> {
+pub(crate) fn supported_value<'a>(name: &str, value: &'a str) -> Result<Option<&'a str>, ImportProblem> {
     let value = value.trim();
     match name {
         "clip-path" | "mask" if value != "none" => {
@@ -49,13 +49,13 @@ pub(crate) fn kept<'a>(name: &str, value: &'a str) -> Result<Option<&'a str>, Im
 /// earlier one is `!important`.
 ///
 /// # Errors
-/// As [`kept`].
+/// As [`supported_value`].
 pub(crate) fn declarations(style: &str) -> Result<String, ImportProblem> {
     let mut last: [Option<&str>; PROPERTIES.len()] = [None; PROPERTIES.len()];
     for declaration in style.split(';') {
         let Some((name, value)) = declaration.split_once(':') else { continue };
         let name = name.trim();
-        if let Some(value) = kept(name, value)?
+        if let Some(value) = supported_value(name, value)?
             && let Some(i) = PROPERTIES.iter().position(|p| *p == name)
         {
             let is_outranked = last[i].is_some_and(|last| is_important(last) && !is_important(value));
@@ -74,7 +74,7 @@ fn is_important(value: &str) -> bool {
 /// are left out.
 ///
 /// # Errors
-/// As [`kept`]; a selector of too many parts.
+/// As [`supported_value`]; a selector of too many parts.
 pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
     let plain = without_comments(text);
     let mut sheet = StyleSheet { text: String::new(), selectors: 0 };

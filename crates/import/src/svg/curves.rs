@@ -8,7 +8,7 @@ use motion_lab_core::worlds::MAX_ITEMS;
 
 /// One part of a path, in metres.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Outline {
+pub(crate) struct PathOutline {
     /// The points. A closed part does not repeat its first point.
     pub points: Vec<Point2>,
     pub closed: bool,
@@ -20,10 +20,10 @@ pub(crate) struct Outline {
 /// straight pieces lie within `tolerance` of it, metres. `None` if a curve takes more pieces than a world may have
 /// shapes, or all parts together more than ten times as many. The second limit is higher because most points of a fine
 /// curve lie too close together and are left out later.
-pub(crate) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, tolerance: f64) -> Option<Vec<Outline>> {
-    let mut parts: Vec<Outline> = Vec::new();
+pub(crate) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, tolerance: f64) -> Option<Vec<PathOutline>> {
+    let mut parts: Vec<PathOutline> = Vec::new();
     let mut points = 0;
-    let begin = |at: Point2| Outline { points: vec![at], closed: false, curved: false };
+    let begin = |at: Point2| PathOutline { points: vec![at], closed: false, curved: false };
     for segment in path.segments() {
         if let PathSegment::MoveTo(p) = segment {
             parts.push(begin(place(p.x, p.y)));
@@ -65,7 +65,7 @@ pub(crate) fn outlines(path: &Path, place: impl Fn(f32, f32) -> Point2, toleranc
     Some(parts)
 }
 
-impl Outline {
+impl PathOutline {
     /// Appends a cubic curve. Its second derivative is at most 6 `bend`, so `n` equal pieces deviate from it by at most
     /// 6/8 `bend` / n^2.
     fn curve(&mut self, p0: Point2, p1: Point2, p2: Point2, p3: Point2, tolerance: f64) -> Option<()> {

@@ -5,10 +5,10 @@ use usvg::{Group, Node, Options, Path, Tree};
 
 use super::check::check;
 use super::clean::clean;
-use super::curves::{Outline, outlines};
+use super::curves::{PathOutline, outlines};
 use super::scan::scan;
 use crate::error::wrong_value;
-use crate::{Draft, ImportError, ImportProblem, Imported};
+use crate::{ImportError, ImportProblem, Imported, WorldDraft};
 use motion_lab_core::geometry::{MIN_FEATURE, Point2};
 use motion_lab_core::worlds::{ShapeText, WorldProblem, Xy};
 
@@ -59,11 +59,11 @@ fn read(text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportE
     if !(options.tolerance >= MIN_TOLERANCE && options.tolerance.is_finite()) {
         return Err(ImportError::at(0, "tolerance", wrong_value(options.tolerance, "finite and at least 0.000001")));
     }
-    let mut draft = Draft::default();
+    let mut draft = WorldDraft::default();
     let tree = tree(text, &mut draft)?;
     let scale = options.metres_per_unit;
     let (width, height) = (f64::from(tree.size().width()), f64::from(tree.size().height()));
-    let mut drawing = Drawing { draft, height, options, sheet: (micro(width * scale), micro(height * scale)) };
+    let mut drawing = SvgDrawing { draft, height, options, sheet: (micro(width * scale), micro(height * scale)) };
     drawing.group(tree.root())?;
     if drawing.draft.world.is_empty() {
         return Err(ImportProblem::Nothing.into());
@@ -72,7 +72,7 @@ fn read(text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportE
 }
 
 /// Parses a drawing within the limits of an import, and resolves its styles, groups and transforms.
-fn tree(text: &str, draft: &mut Draft) -> Result<Tree, ImportError> {
+fn tree(text: &str, draft: &mut WorldDraft) -> Result<Tree, ImportError> {
     scan(text)?;
     let plain = {
         let parsing = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
@@ -92,14 +92,14 @@ fn micro(x: f64) -> f64 {
 }
 
 /// A drawing while it is converted to a world.
-struct Drawing {
-    draft: Draft,
+struct SvgDrawing {
+    draft: WorldDraft,
     height: f64,
     options: SvgOptions,
     sheet: Xy,
 }
 
-impl Drawing {
+impl SvgDrawing {
     fn group(&mut self, group: &Group) -> Result<(), ImportError> {
         group.children().iter().try_for_each(|node| match node {
             Node::Group(group) => self.group(group),
@@ -129,7 +129,7 @@ impl Drawing {
             (Some(_), 1) => self.solid(id, parts.remove(0)),
             (Some(_), _) => {
                 self.draft.note("a filled shape of several parts is drawn as the outlines of its parts");
-                parts.into_iter().try_for_each(|part| self.wall(id, Outline { closed: true, ..part }))
+                parts.into_iter().try_for_each(|part| self.wall(id, PathOutline { closed: true, ..part }))
             }
         };
         added.map_err(|problem| ImportError::at(0, id, problem))
@@ -140,7 +140,7 @@ impl Drawing {
         if id.is_empty() { self.draft.world.numbered(stem) } else { self.draft.world.claim(id) }
     }
 
-    fn wall(&mut self, id: &str, outline: Outline) -> Result<(), WorldProblem> {
+    fn wall(&mut self, id: &str, outline: PathOutline) -> Result<(), WorldProblem> {
         let (points, closed) = spaced(&outline);
         if points.len() < 2 {
             self.draft.note("what is smaller than a millimetre is left out");
@@ -151,7 +151,7 @@ impl Drawing {
     }
 
     /// Adds a filled outline, closed even if the drawing left it open.
-    fn solid(&mut self, id: &str, outline: Outline) -> Result<(), WorldProblem> {
+    fn solid(&mut self, id: &str, outline: PathOutline) -> Result<(), WorldProblem> {
         if let Some((center, radius)) = outline.disc(self.options.tolerance) {
             let name = self.name(id, "disc");
             let center = (micro(center.x), micro(center.y));
@@ -189,7 +189,7 @@ impl Drawing {
 
 /// Rounds the points of an outline and drops those closer than the smallest feature to the one before. Also returns
 /// whether enough are left to close the outline.
-fn spaced(outline: &Outline) -> (Vec<Xy>, bool) {
+fn spaced(outline: &PathOutline) -> (Vec<Xy>, bool) {
     let near = |a: Xy, b: Xy| motion_lab_core::num::hypot(a.0 - b.0, a.1 - b.1) < MIN_FEATURE;
     let mut points: Vec<Xy> = Vec::new();
     for p in outline.points.iter().map(|p| (micro(p.x), micro(p.y))) {

@@ -1,7 +1,7 @@
 //! `Anatomy`, one frozen scene with a robot in it.
 
 use super::nearest::{NearestPair, nearest_pairs};
-use super::sweep::Sweep;
+use super::sweep::SweptMotion;
 use motion_lab_core::collision::{Checker, Collision, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, Coordinates, T2};
 use motion_lab_core::geometry::{Aabb, Footprint, Point2, Shape};
@@ -305,8 +305,8 @@ impl Anatomy {
     ///
     /// # Errors
     /// [`ConfigurationError`] when the second configuration is not one of the robot's.
-    pub fn sweep(&self) -> Result<Sweep, ConfigurationError> {
-        Sweep::new(&self.checker, &self.q, &self.second())
+    pub fn sweep(&self) -> Result<SweptMotion, ConfigurationError> {
+        SweptMotion::new(&self.checker, &self.q, &self.second())
     }
 }
 

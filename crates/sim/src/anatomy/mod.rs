@@ -34,6 +34,6 @@ pub use contact::touching_items;
 pub use feature::Feature;
 pub use frozen::{Anatomy, LENGTHS, THICK_LINKS, Tab, WorldSource};
 pub use nearest::{NearestPair, TIE, nearest_pairs};
-pub use prompt::{Guess, NoGuess, Prompt, Series};
-pub use sweep::Sweep;
+pub use prompt::{Guess, NoGuess, Prompt, PromptSeries};
+pub use sweep::SweptMotion;
 pub use twin::{contact_items, in_the_way, straight_way, twin};

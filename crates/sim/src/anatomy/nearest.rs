@@ -12,7 +12,7 @@ pub const TIE: f64 = 1e-9;
 const APART: f64 = 1e-6;
 
 /// Largest number of pairs listed.
-const MOST: usize = 8;
+const MAX_PAIRS: usize = 8;
 
 /// A pair of nearest points, and the features on which they lie.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,7 +39,7 @@ pub fn nearest_pairs(scene: &Scene, footprint: &Footprint) -> Vec<NearestPair> {
             for (obstacle, piece) in scene.pieces() {
                 for (on_robot, on_obstacle, dist) in candidates(shape.placed(), piece) {
                     let w = Witness { on_robot, on_obstacle, dist, part, obstacle };
-                    if dist <= first.dist + TIE && found.len() < MOST && !found.iter().any(|f| one(f, &w)) {
+                    if dist <= first.dist + TIE && found.len() < MAX_PAIRS && !found.iter().any(|f| one(f, &w)) {
                         found.push(w);
                     }
                 }

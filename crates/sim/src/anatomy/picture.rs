@@ -1,7 +1,7 @@
 //! The anatomy as a picture: the world, the robot and the tab's answer.
 
 use super::words::{figure, metres};
-use super::{Anatomy, Feature, NearestPair, Sweep, Tab};
+use super::{Anatomy, Feature, NearestPair, SweptMotion, Tab};
 use motion_lab_core::collision::{Collision, EdgeVerdict, Scene};
 use motion_lab_core::geometry::{Aabb, Footprint, Part, Point2, Pose2, Shape, Vector2};
 use motion_lab_core::num::{self, lesser};
@@ -128,7 +128,7 @@ impl Anatomy {
     }
 
     /// The motion of the swept tab: the proof's steps, the stretch in contact, and the end.
-    fn motion_items(&self, sweep: &Sweep) -> Vec<Item> {
+    fn motion_items(&self, sweep: &SweptMotion) -> Vec<Item> {
         let robot_model = self.checker().robot();
         let at = |s: f64| robot_model.footprint(&sweep.at(s));
         let ends: Vec<f64> = sweep.certificate.steps().iter().map(|step| step.to).collect();

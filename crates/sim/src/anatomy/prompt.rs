@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Anatomy, Sweep, Tab, WorldSource};
+use super::{Anatomy, SweptMotion, Tab, WorldSource};
 use motion_lab_core::collision::{Checker, EdgeVerdict, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Shape};
@@ -22,13 +22,13 @@ pub struct Prompt {
     pub tolerance: f64,
     /// The explanation to show with the answer.
     pub moral: &'static str,
-    asked: Asked,
+    asked: PromptQuestion,
     shown: Anatomy,
 }
 
 /// What a prompt asks about the anatomy that it shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Asked {
+enum PromptQuestion {
     /// The distance, metres.
     Distance,
     /// The angle of joint 2 at its first contact on the swept tab's motion, radians.
@@ -39,7 +39,7 @@ enum Asked {
 
 /// A series of prompts, asked one after the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Series {
+pub enum PromptSeries {
     /// Distances and contacts.
     Queries,
     /// How many arms reach a tip.
@@ -68,7 +68,7 @@ pub enum Guess {
 #[error("{0:?} is no number; write it as 0.05")]
 pub struct NoGuess(pub String);
 
-impl Series {
+impl PromptSeries {
     /// The number of its prompts.
     pub fn count(self) -> usize {
         self.prompts().len()
@@ -82,8 +82,8 @@ impl Series {
 
     fn prompts(self) -> &'static [fn() -> Prompt] {
         match self {
-            Series::Queries => &[thick_links, exercise_3, first_contact, rusty],
-            Series::Tips => &[stretched, too_far, within],
+            PromptSeries::Queries => &[thick_links, exercise_3, first_contact, rusty],
+            PromptSeries::Tips => &[stretched, too_far, within],
         }
     }
 }
@@ -98,7 +98,7 @@ fn thick_links() -> Prompt {
         // four decimals, as the distance is shown
         tolerance: 0.5e-4,
         moral: "A radius is taken off the distance of the bare links, exactly.",
-        asked: Asked::Distance,
+        asked: PromptQuestion::Distance,
         shown: thick.with_tab(Tab::Distance),
     }
 }
@@ -113,7 +113,7 @@ fn exercise_3() -> Prompt {
         // three decimals
         tolerance: 0.5e-3,
         moral: "The nearest point is the square's corner (0.9, 0.9): 0.9 sin 0.3 \u{2212} 0.1 cos 0.3.",
-        asked: Asked::Distance,
+        asked: PromptQuestion::Distance,
         shown: tilted.with_tab(Tab::Witness),
     }
 }
@@ -129,7 +129,7 @@ fn first_contact() -> Prompt {
         unit: "rad",
         tolerance: 0.5e-3,
         moral: "Link 2 then points from the elbow at the block's corner (0.5, 1).",
-        asked: Asked::FirstContact,
+        asked: PromptQuestion::FirstContact,
         shown: unbent.with_tab(Tab::Swept),
     }
 }
@@ -146,7 +146,7 @@ fn rusty() -> Prompt {
         unit: "m",
         tolerance: 0.5e-3,
         moral: "A metre less its radius of 0.11 m: a disc is not a point.",
-        asked: Asked::Distance,
+        asked: PromptQuestion::Distance,
         shown: Anatomy::of(world, WorldSource::Unsaved, checker, q, &[0.5]).with_tab(Tab::Witness),
     }
 }
@@ -156,7 +156,7 @@ fn arms(id: &'static str, question: &'static str, far: f64, moral: &'static str)
     let mut shown = Anatomy::default();
     shown.drag(Point2::new(far, 0.0));
     shown.show_annulus = true;
-    Prompt { id, question, unit: "", tolerance: 0.0, moral, asked: Asked::Arms(Point2::new(far, 0.0)), shown }
+    Prompt { id, question, unit: "", tolerance: 0.0, moral, asked: PromptQuestion::Arms(Point2::new(far, 0.0)), shown }
 }
 
 fn stretched() -> Prompt {
@@ -180,9 +180,9 @@ impl Prompt {
     /// The answer, in the prompt's unit, from the checker and the arm; not a number if there is none.
     pub fn answer(&self) -> f64 {
         match self.asked {
-            Asked::Distance => self.shown.distance(),
-            Asked::FirstContact => self.shown.sweep().map_or(f64::NAN, |sweep| angle_of_contact(&sweep)),
-            Asked::Arms(tip) => match self.shown.checker().robot() {
+            PromptQuestion::Distance => self.shown.distance(),
+            PromptQuestion::FirstContact => self.shown.sweep().map_or(f64::NAN, |sweep| angle_of_contact(&sweep)),
+            PromptQuestion::Arms(tip) => match self.shown.checker().robot() {
                 AnyRobot::Reach(arm) => arm.ik(tip).iter().flatten().count() as f64,
                 _ => f64::NAN,
             },
@@ -233,7 +233,7 @@ impl Prompt {
 }
 
 /// The angle of joint 2 at a motion's first contact.
-fn angle_of_contact(sweep: &Sweep) -> f64 {
+fn angle_of_contact(sweep: &SweptMotion) -> f64 {
     match sweep.verdict {
         EdgeVerdict::Hit { contact_at, .. } => sweep.at(contact_at).coordinates().get(1).copied().unwrap_or(f64::NAN),
         _ => f64::NAN,
@@ -247,7 +247,8 @@ mod tests {
 
     /// The prompt of this name.
     fn prompt(id: &str) -> Prompt {
-        let all = [Series::Queries, Series::Tips].map(|series| (0..series.count()).map(move |n| series.prompt(n)));
+        let all = [PromptSeries::Queries, PromptSeries::Tips]
+            .map(|series| (0..series.count()).map(move |n| series.prompt(n)));
         all.into_iter().flatten().find(|prompt| prompt.id == id).unwrap()
     }
 
@@ -285,6 +286,6 @@ mod tests {
         let (far, near) = (prompt("too far"), prompt("the rover"));
         assert_eq!(far.words(far.check(2.0)), "Off by +2: it is 0. Outside of the annulus no arm ends.");
         assert!(near.words(near.check(0.89)).starts_with("Right: 0.890000 m. "));
-        assert_eq!(Series::Tips.prompt(3).id, "stretched", "they begin anew");
+        assert_eq!(PromptSeries::Tips.prompt(3).id, "stretched", "they begin anew");
     }
 }

@@ -2,7 +2,7 @@
 
 use super::feature::Feature;
 use super::words::{figure, metres, point};
-use super::{Anatomy, NearestPair, Sweep, Tab};
+use super::{Anatomy, NearestPair, SweptMotion, Tab};
 use motion_lab_core::collision::{EdgeVerdict, HitBy, ObstacleId};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::robots::{AnyRobot, Reach};
@@ -63,7 +63,7 @@ impl Anatomy {
         (lines.remove(at), lines)
     }
 
-    fn answer_of(&self, sweep: &Sweep) -> (String, Vec<String>) {
+    fn answer_of(&self, sweep: &SweptMotion) -> (String, Vec<String>) {
         let mut lines = sweep.words(|id| self.name(id), self.checker().robot());
         let EdgeVerdict::Hit { contact_at, by, .. } = sweep.verdict else {
             // after what its ends are

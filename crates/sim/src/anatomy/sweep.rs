@@ -9,7 +9,7 @@ use motion_lab_core::robots::{AnyRobot, ConfigurationError, Motion, Robot};
 /// The motion along the chart's straight line to a second configuration.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct Sweep {
+pub struct SweptMotion {
     /// The configuration at the start.
     pub from: AnyConfiguration,
     /// The configuration at the end.
@@ -29,7 +29,7 @@ pub struct Sweep {
     pub straight_hits: bool,
 }
 
-impl Sweep {
+impl SweptMotion {
     /// The motion from `from` to `to`.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl Sweep {
             }
             EdgeVerdict::Unresolved { gap, .. } => gap,
         };
-        Ok(Sweep {
+        Ok(SweptMotion {
             from: *from,
             to: *to,
             from_free: checker.is_free(from),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::Sweep;
+use super::SweptMotion;
 use super::words::{figure, metres};
 use motion_lab_core::collision::{Checker, Collision, EdgeVerdict, HitBy};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
@@ -35,7 +35,7 @@ pub fn in_the_way(checker: &Checker<AnyRobot>, q: &AnyConfiguration) -> Option<S
 }
 
 /// The verdict on a straight motion in one sentence: `the straight way hits the post at s = 0.41`.
-pub fn straight_way(checker: &Checker<AnyRobot>, sweep: &Sweep) -> String {
+pub fn straight_way(checker: &Checker<AnyRobot>, sweep: &SweptMotion) -> String {
     match sweep.verdict {
         EdgeVerdict::Free { clearance } => {
             format!("the straight way is free, at least {} clear", metres(clearance))
@@ -54,7 +54,7 @@ pub fn straight_way(checker: &Checker<AnyRobot>, sweep: &Sweep) -> String {
 }
 
 /// Where a straight motion hits first: the robot there, and a cross at the contact. Empty for any other motion.
-pub fn contact_items(checker: &Checker<AnyRobot>, sweep: &Sweep) -> Vec<Item> {
+pub fn contact_items(checker: &Checker<AnyRobot>, sweep: &SweptMotion) -> Vec<Item> {
     let EdgeVerdict::Hit { contact_at, .. } = sweep.verdict else { return Vec::new() };
     let there = checker.robot().footprint(&sweep.at(contact_at));
     let mut items = footprint("way/hit", "the first contact", &there, Role::Goal, 0.3);
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn the_straight_way_is_free_or_names_what_it_hits_and_where() {
         let checker = bench();
-        let way = |a, b| Sweep::new(&checker, &a, &b).unwrap();
+        let way = |a, b| SweptMotion::new(&checker, &a, &b).unwrap();
         // the chapter's: link 1 sweeps through the post, both ends are free
         let hit = way(at(2.0, 0.0), at(3.1, 0.0));
         let words = straight_way(&checker, &hit);

@@ -3,7 +3,7 @@
 use super::numbers::{listed, sides};
 use super::op::{all_names, changed, numbers_of, shape_of};
 use super::residents::{Stand, stand};
-use super::{Atlas, EditError, EditShape, Handle, Number, Op, Refusal};
+use super::{Atlas, EditError, EditShape, Handle, Number, Op, TeleportRefusal};
 use motion_lab_core::configuration::Kinds;
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Vector2};
 use motion_lab_core::num::{hypot, lesser, sin_cos};
@@ -217,7 +217,7 @@ impl Editor {
     pub fn warnings(&self) -> Vec<String> {
         let atlas = Atlas::new(self.world().clone()).knowing(self.kinds.clone());
         let starts = atlas.in_contact().into_iter().map(|(name, refusal)| match refusal {
-            Refusal::Overlap { .. } => format!("{name} {refusal} at its start"),
+            TeleportRefusal::Overlap { .. } => format!("{name} {refusal} at its start"),
             other => format!("{name}: {other}"),
         });
         let nowhere = |robot: &&Resident| {

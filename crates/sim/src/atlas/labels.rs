@@ -1,7 +1,7 @@
 //! Names on a world: labels that overlap neither one another nor the things they name.
 
 use super::Atlas;
-use super::taken::Taken;
+use super::taken::OccupiedAreas;
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{Kinds, RobotKind};
 use motion_lab_core::geometry::{Aabb, Footprint, Part, Placed, Point2, Pose2, Segment, Shape, Vector2};
@@ -25,14 +25,14 @@ const GAPS: [f64; 7] = [3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0];
 const WAYS: u32 = 24;
 
 /// Largest number of things without a place in a layout; those after it are not tried.
-const MOST_LEFT_OUT: usize = 200;
+const MAX_LEFT_OUT: usize = 200;
 
 /// Largest number of layouts. Each new one puts the first name without a place at the front.
 const ROUNDS: usize = 4;
 
 /// A named thing of a world, and the points to which its label can lead.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Named {
+pub struct LabelledThing {
     /// The list of the world that holds it: `walls`, `obstacles`, `places`, `marks`, `robots`.
     pub list: &'static str,
     /// Its name.
@@ -43,16 +43,16 @@ pub struct Named {
 
 /// Every named thing of a world in file order. Robots of the lab's kinds that drive are at their starts; other robots
 /// are left out.
-pub fn named(world: &World) -> Vec<Named> {
+pub fn named(world: &World) -> Vec<LabelledThing> {
     named_with(world, &Kinds::default())
 }
 
 /// [`named`] with the robots of further kinds whose first two coordinates are a place.
-pub fn named_with(world: &World, kinds: &Kinds) -> Vec<Named> {
+pub fn named_with(world: &World, kinds: &Kinds) -> Vec<LabelledThing> {
     let mut out = Vec::new();
     let mut add = |list, name: &str, at: Vec<Point2>| {
         if !at.is_empty() {
-            out.push(Named { list, name: name.to_owned(), at });
+            out.push(LabelledThing { list, name: name.to_owned(), at });
         }
     };
     for obstacle in &world.obstacles {
@@ -125,23 +125,23 @@ impl Plate {
 
 /// Everything that labels keep off: obstacles, robots' footprints, painted marks, the dots and arrows of places, and
 /// other labels.
-struct Sheet {
+struct LabelObstacles {
     bounds: Aabb,
     px: f64,
     solid: Scene,
     marks: Scene,
     dots: Vec<Point2>,
     /// The labels placed so far, with their leaders.
-    taken: Taken,
+    taken: OccupiedAreas,
 }
 
 /// A place for a label: its plate, and the leader to its thing.
-struct Spot {
+struct LabelSpot {
     plate: Plate,
     leader: Segment,
 }
 
-impl Sheet {
+impl LabelObstacles {
     /// The sheet without labels; a pixel of it is `px` metres.
     fn of(atlas: &Atlas, px: f64) -> Self {
         let world = atlas.world();
@@ -150,13 +150,13 @@ impl Sheet {
             let (s, c) = num::sin_cos(p.pose.theta);
             [0.0, 0.5, 1.0].map(|part| p.pose.position() + Vector2::new(c, s) * (part * ARROW * px))
         });
-        Sheet {
+        LabelObstacles {
             bounds: world.bounds,
             px,
             solid: super::teleport::crowd(world, atlas.standing()),
             marks: Scene::of_walls(&segments.collect::<Vec<_>>()),
             dots: dots.collect(),
-            taken: Taken::default(),
+            taken: OccupiedAreas::default(),
         }
     }
 
@@ -185,7 +185,7 @@ impl Sheet {
     }
 
     /// Marks a place as taken.
-    fn take(&mut self, Spot { plate, leader }: &Spot) {
+    fn take(&mut self, LabelSpot { plate, leader }: &LabelSpot) {
         let (min, max) =
             (Point2::from(plate.middle.coords - plate.half), Point2::from(plate.middle.coords + plate.half));
         let line = Shape::Segment { a: leader.a, b: leader.b };
@@ -193,7 +193,7 @@ impl Sheet {
     }
 
     /// The nearest free place for a label of this size, half its sides given.
-    fn place_for(&self, thing: &Named, half: Vector2) -> Option<Spot> {
+    fn place_for(&self, thing: &LabelledThing, half: Vector2) -> Option<LabelSpot> {
         for over_marks in [false, true] {
             for gap in GAPS {
                 for &at in &thing.at {
@@ -201,8 +201,9 @@ impl Sheet {
                     let ways =
                         (0..WAYS).map(|k| num::sin_cos(f64::from(k) * (std::f64::consts::TAU / f64::from(WAYS))));
                     let mut spots = ways.map(|(s, c)| self.spot(&thing.name, at, Vector2::new(c, s), half, gap));
-                    let good =
-                        |spot: &Spot| self.is_free(&spot.plate) && self.may_lead(&thing.name, &spot.leader, over_marks);
+                    let good = |spot: &LabelSpot| {
+                        self.is_free(&spot.plate) && self.may_lead(&thing.name, &spot.leader, over_marks)
+                    };
                     if let Some(spot) = spots.find(good) {
                         return Some(spot);
                     }
@@ -213,7 +214,7 @@ impl Sheet {
     }
 
     /// The spot whose plate lies `gap` pixels beyond the thing's border, in the direction `way` from `at`.
-    fn spot(&self, name: &str, at: Point2, way: Vector2, half: Vector2, gap: f64) -> Spot {
+    fn spot(&self, name: &str, at: Point2, way: Vector2, half: Vector2, gap: f64) -> LabelSpot {
         let border = at + way * self.way_out(name, at, way);
         // how far the plate reaches back from its middle
         let reach = lesser(half.x / greater(way.x.abs(), 1e-9), half.y / greater(way.y.abs(), 1e-9));
@@ -222,7 +223,7 @@ impl Sheet {
         let inner = border - way * lesser((border - at).norm(), INNER * self.px);
         // words are narrower than the room kept for them: at its edge a leader would end short of them
         let words = Plate { half: Vector2::new(0.75 * (half.x - 4.0 * self.px), 0.5 * half.y), ..plate };
-        Spot { plate, leader: Segment::new(inner, words.nearest_to(border)) }
+        LabelSpot { plate, leader: Segment::new(inner, words.nearest_to(border)) }
     }
 
     /// The distance from a point inside a thing to its border in the direction `way`, metres; 0 for a wall or a mark.
@@ -249,7 +250,7 @@ impl Sheet {
 
 /// Places for the names of these things, the first with the first choice, and the number of the first thing without a
 /// place.
-fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<usize>) {
+fn lay_out(mut sheet: LabelObstacles, things: &[LabelledThing]) -> (Vec<(LabelledThing, LabelSpot)>, Option<usize>) {
     let (mut spots, mut without) = (Vec::new(), Vec::new());
     for (number, thing) in things.iter().enumerate() {
         let width = 0.56 * SIZE * thing.name.chars().count() as f64 + 8.0;
@@ -259,7 +260,7 @@ fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<us
                 sheet.take(&spot);
                 spots.push((thing.clone(), spot));
             }
-            None if without.len() == MOST_LEFT_OUT => break,
+            None if without.len() == MAX_LEFT_OUT => break,
             None => without.push(number),
         }
     }
@@ -267,8 +268,8 @@ fn lay_out(mut sheet: Sheet, things: &[Named]) -> (Vec<(Named, Spot)>, Option<us
 }
 
 /// The value of a layout: 4 for each placed name of a robot or an obstacle, 2 for a place, 1 for a wall or a mark.
-fn worth(spots: &[(Named, Spot)]) -> usize {
-    let of = |thing: &Named| match thing.list {
+fn worth(spots: &[(LabelledThing, LabelSpot)]) -> usize {
+    let of = |thing: &LabelledThing| match thing.list {
         "robots" | "obstacles" => 4,
         "places" => 2,
         _ => 1,
@@ -284,12 +285,13 @@ fn worth(spots: &[(Named, Spot)]) -> usize {
 pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
     let px = 1.0 / px_per_metre;
     let mut things = named_with(atlas.world(), atlas.kinds());
-    let rank =
-        |thing: &Named| ["robots", "obstacles", "places", "walls", "marks"].iter().position(|l| *l == thing.list);
+    let rank = |thing: &LabelledThing| {
+        ["robots", "obstacles", "places", "walls", "marks"].iter().position(|l| *l == thing.list)
+    };
     things.sort_by_key(rank);
     let mut best = Vec::new();
     for _ in 0..ROUNDS {
-        let (spots, without) = lay_out(Sheet::of(atlas, px), &things);
+        let (spots, without) = lay_out(LabelObstacles::of(atlas, px), &things);
         if worth(&spots) > worth(&best) {
             best = spots;
         }
@@ -298,7 +300,7 @@ pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
         things[..=without].rotate_right(1);
     }
     let mut items = Vec::new();
-    for (thing, Spot { plate, leader }) in best {
+    for (thing, LabelSpot { plate, leader }) in best {
         let id = format!("name/{}/{}", thing.list, thing.name);
         let line = Drawing::segment(leader.a, leader.b);
         items.push(Item::new(format!("{id}/leader"), &thing.name, Role::Muted, line).stroked(Line::solid(0.75)));
@@ -318,82 +320,4 @@ pub fn names(atlas: &Atlas, px_per_metre: f64) -> Vec<Item> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    impl Plate {
-        fn overlaps(&self, other: &Plate) -> bool {
-            let d = self.middle - other.middle;
-            d.x.abs() < self.half.x + other.half.x && d.y.abs() < self.half.y + other.half.y
-        }
-    }
-
-    fn plates(items: &[Item], px_per_metre: f64) -> Vec<(String, Plate)> {
-        let plates = items.iter().filter_map(|item| match &item.drawing {
-            Drawing::Label { at, text, size_px, .. } => {
-                let half =
-                    Vector2::new(0.5 * 0.5 * size_px * text.chars().count() as f64, 0.5 * size_px) / px_per_metre;
-                Some((text.clone(), Plate { middle: *at, half }))
-            }
-            _ => None,
-        });
-        plates.collect()
-    }
-
-    #[test]
-    fn names_overlap_nothing_at_any_size_and_the_last_drop_out_first() {
-        for (world, missing) in [
-            // the least number of names left out on paper 560, 380 and 240 pixels high
-            (World::apartment(), [4, 14, 26]),
-            (World::workbench(), [0, 0, 0]),
-            (World::lot(), [0, 4, 8]),
-        ] {
-            for (height, most_missing) in [560.0, 380.0, 240.0].into_iter().zip(missing) {
-                let scale = height / (world.bounds.max.y - world.bounds.min.y);
-                let atlas = Atlas::new(world.clone());
-                let items = names(&atlas, scale);
-                let plates = plates(&items, scale);
-                let all = named(&world);
-                let case = format!("{} at {height}: {} of {}", world.name, plates.len(), all.len());
-                assert!(plates.len() + most_missing >= all.len(), "{case}");
-                let sheet = Sheet::of(&atlas, 1.0 / scale);
-                let leader = |item: &Item| match &item.drawing {
-                    Drawing::Polyline(points) => Some(Segment::new(points[0], points[1])),
-                    _ => None,
-                };
-                let leaders: Vec<Segment> = items.iter().filter_map(leader).collect();
-                assert_eq!(leaders.len(), plates.len());
-                for (i, (name, plate)) in plates.iter().enumerate() {
-                    let narrow = Plate { half: plate.half * 0.9, ..*plate };
-                    assert!(narrow.covers(leaders[i].b), "{case}: a leader ends short of {name}");
-                    assert!(!sheet.solid.intersects(&plate.area()), "{case}: {name} on something solid");
-                    assert!(!sheet.marks.intersects(&plate.area()), "{case}: {name} on a mark");
-                    assert!(!sheet.dots.iter().any(|d| plate.covers(*d)), "{case}: {name} on an arrow");
-                    let others = leaders.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, s)| *s);
-                    let lines = Scene::of_walls(&others.collect::<Vec<_>>());
-                    assert!(!lines.intersects(&plate.area()), "{case}: a line through {name}");
-                    for (other, p) in &plates[..i] {
-                        assert!(!plate.overlaps(p), "{case}: {name} and {other}");
-                    }
-                }
-                // obstacles have the first choice
-                let share = |list: &str| {
-                    let of_list: Vec<&Named> = all.iter().filter(|n| n.list == list).collect();
-                    let shown = of_list.iter().filter(|n| plates.iter().any(|(p, _)| *p == n.name)).count();
-                    if of_list.is_empty() { 0.0 } else { shown as f64 / of_list.len() as f64 }
-                };
-                assert!(share("obstacles") > 0.0 && share("obstacles") + 1e-9 >= share("walls"), "{case}");
-            }
-        }
-    }
-
-    #[test]
-    fn every_named_thing_is_found() {
-        let world = World::lot();
-        let all = named(&world);
-        let count =
-            world.obstacles.len() + world.doors.len() + world.places.len() + world.marks.len() + world.robots.len();
-        assert_eq!(all.len(), count);
-        assert!(all.iter().all(|n| !n.at.is_empty() && n.at.iter().all(|p| p.x.is_finite())));
-    }
-}
+mod tests;

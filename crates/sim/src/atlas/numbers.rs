@@ -18,17 +18,17 @@ pub struct Number {
 }
 
 /// What is done with each number of a thing: its name, its unit, and itself.
-pub(super) type Visit<'a> = dyn FnMut(&str, &'static str, &mut f64) + 'a;
+pub(super) type NumberVisitor<'a> = dyn FnMut(&str, &'static str, &mut f64) + 'a;
 
 /// The numbers that `all` visits.
-pub(super) fn listed(all: impl FnOnce(&mut Visit<'_>)) -> Vec<Number> {
+pub(super) fn listed(all: impl FnOnce(&mut NumberVisitor<'_>)) -> Vec<Number> {
     let mut numbers = Vec::new();
     all(&mut |name, unit, value| numbers.push(Number { name: name.to_owned(), value: *value, unit }));
     numbers
 }
 
 /// Sets the number with this index of those that `all` visits, and says whether there is one.
-pub(super) fn setting(number: usize, to: f64, all: impl FnOnce(&mut Visit<'_>)) -> bool {
+pub(super) fn setting(number: usize, to: f64, all: impl FnOnce(&mut NumberVisitor<'_>)) -> bool {
     let mut count = 0;
     all(&mut |_, _, value| {
         if count == number {
@@ -57,26 +57,26 @@ const METRES: &str = "m";
 const RADIANS: &str = "rad";
 
 /// Visits a point's coordinates, named with this behind them.
-fn point(p: &mut Point2, which: &str, visit: &mut Visit<'_>) {
+fn point(p: &mut Point2, which: &str, visit: &mut NumberVisitor<'_>) {
     visit(&format!("x{which}"), METRES, &mut p.x);
     visit(&format!("y{which}"), METRES, &mut p.y);
 }
 
 /// Visits the numbers of a pose.
-pub(super) fn pose(pose: &mut Pose2, visit: &mut Visit<'_>) {
+pub(super) fn pose(pose: &mut Pose2, visit: &mut NumberVisitor<'_>) {
     visit("x", METRES, &mut pose.x);
     visit("y", METRES, &mut pose.y);
     visit("heading", RADIANS, &mut pose.theta);
 }
 
 /// Visits the ends of a door.
-pub(super) fn of_door(door: &mut Door, visit: &mut Visit<'_>) {
+pub(super) fn of_door(door: &mut Door, visit: &mut NumberVisitor<'_>) {
     point(&mut door.a, " of the hinge", visit);
     point(&mut door.b, " of the end", visit);
 }
 
 /// Visits a corner and the way from it to the opposite one, so that a box that is moved keeps its size.
-pub(super) fn sides(min: &mut Point2, max: &mut Point2, visit: &mut Visit<'_>) {
+pub(super) fn sides(min: &mut Point2, max: &mut Point2, visit: &mut NumberVisitor<'_>) {
     let was = [min.x, min.y, tidy(max.x - min.x), tidy(max.y - min.y)];
     let mut now = was;
     for (name, value) in ["x", "y", "width", "height"].into_iter().zip(&mut now) {
@@ -91,7 +91,7 @@ pub(super) fn sides(min: &mut Point2, max: &mut Point2, visit: &mut Visit<'_>) {
 }
 
 /// Visits the numbers of a shape.
-pub(super) fn of_shape(shape: &mut EditShape, visit: &mut Visit<'_>) {
+pub(super) fn of_shape(shape: &mut EditShape, visit: &mut NumberVisitor<'_>) {
     match shape {
         EditShape::Wall(points) | EditShape::Mark(points) => {
             let closed = points.len() > 2 && points.first() == points.last();
@@ -115,14 +115,14 @@ pub(super) fn of_shape(shape: &mut EditShape, visit: &mut Visit<'_>) {
     }
 }
 
-fn of_points(points: &mut [Point2], visit: &mut Visit<'_>) {
+fn of_points(points: &mut [Point2], visit: &mut NumberVisitor<'_>) {
     for (i, p) in points.iter_mut().enumerate() {
         point(p, &format!(" {}", i + 1), visit);
     }
 }
 
 /// Visits the coordinates of a robot's start and its sizes. A robot of which a size is changed has its own after that.
-pub(super) fn of_robot(robot: &mut Resident, kinds: &Kinds, visit: &mut Visit<'_>) {
+pub(super) fn of_robot(robot: &mut Resident, kinds: &Kinds, visit: &mut NumberVisitor<'_>) {
     let about = kinds.of(&robot.kind);
     for (i, q) in robot.start.iter_mut().enumerate() {
         let name = about.and_then(|about: &RobotKind| about.coordinates.get(i).copied());

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::numbers::{Visit, setting};
+use super::numbers::{NumberVisitor, setting};
 use super::outline::tidy;
 use super::residents::stand;
 use super::{EditError, EditShape, Number, numbers, residents};
@@ -110,7 +110,7 @@ pub enum Op {
 
 /// The list of a world that holds a thing, and its place there.
 #[derive(Clone, Copy)]
-enum Found {
+enum ThingIndex {
     Obstacle(usize),
     Door(usize),
     Place(usize),
@@ -118,14 +118,14 @@ enum Found {
     Robot(usize),
 }
 
-fn find(world: &World, name: &str) -> Option<Found> {
+fn find(world: &World, name: &str) -> Option<ThingIndex> {
     let at = |mut names: Box<dyn Iterator<Item = &str> + '_>| names.position(|n| n == name);
     at(Box::new(world.obstacles.iter().map(|o| o.name.as_str())))
-        .map(Found::Obstacle)
-        .or_else(|| at(Box::new(world.doors.iter().map(|d| d.name.as_str()))).map(Found::Door))
-        .or_else(|| at(Box::new(world.places.iter().map(|p| p.name.as_str()))).map(Found::Place))
-        .or_else(|| at(Box::new(world.marks.iter().map(|m| m.name.as_str()))).map(Found::Mark))
-        .or_else(|| at(Box::new(world.robots.iter().map(|r| r.name.as_str()))).map(Found::Robot))
+        .map(ThingIndex::Obstacle)
+        .or_else(|| at(Box::new(world.doors.iter().map(|d| d.name.as_str()))).map(ThingIndex::Door))
+        .or_else(|| at(Box::new(world.places.iter().map(|p| p.name.as_str()))).map(ThingIndex::Place))
+        .or_else(|| at(Box::new(world.marks.iter().map(|m| m.name.as_str()))).map(ThingIndex::Mark))
+        .or_else(|| at(Box::new(world.robots.iter().map(|r| r.name.as_str()))).map(ThingIndex::Robot))
 }
 
 /// The names of everything in the world.
@@ -140,19 +140,19 @@ pub(super) fn shape_of(world: &World, name: &str) -> Option<EditShape> {
     shape_at(world, find(world, name)?)
 }
 
-fn shape_at(world: &World, at: Found) -> Option<EditShape> {
+fn shape_at(world: &World, at: ThingIndex) -> Option<EditShape> {
     match at {
-        Found::Obstacle(i) => Some(EditShape::of(&world.obstacles[i])),
-        Found::Mark(i) => Some(EditShape::Mark(world.marks[i].points.clone())),
-        Found::Door(_) | Found::Place(_) | Found::Robot(_) => None,
+        ThingIndex::Obstacle(i) => Some(EditShape::of(&world.obstacles[i])),
+        ThingIndex::Mark(i) => Some(EditShape::Mark(world.marks[i].points.clone())),
+        ThingIndex::Door(_) | ThingIndex::Place(_) | ThingIndex::Robot(_) => None,
     }
 }
 
 /// Gives an obstacle another shape, or a mark another line.
-fn reshape(world: &mut World, at: Found, name: &str, shape: &EditShape) -> Result<(), EditError> {
+fn reshape(world: &mut World, at: ThingIndex, name: &str, shape: &EditShape) -> Result<(), EditError> {
     match (at, shape) {
-        (Found::Mark(i), EditShape::Mark(points)) => world.marks[i].points.clone_from(points),
-        (Found::Obstacle(i), shape) if !matches!(shape, EditShape::Mark(_)) => {
+        (ThingIndex::Mark(i), EditShape::Mark(points)) => world.marks[i].points.clone_from(points),
+        (ThingIndex::Obstacle(i), shape) if !matches!(shape, EditShape::Mark(_)) => {
             world.obstacles[i] = shape.obstacle(name)?;
         }
         _ => return Err(EditError::NoShape(name.to_owned())),
@@ -161,9 +161,15 @@ fn reshape(world: &mut World, at: Found, name: &str, shape: &EditShape) -> Resul
 }
 
 /// Visits the numbers of a thing.
-fn visit(world: &mut World, at: Found, name: &str, kinds: &Kinds, visit: &mut Visit<'_>) -> Result<(), EditError> {
+fn visit(
+    world: &mut World,
+    at: ThingIndex,
+    name: &str,
+    kinds: &Kinds,
+    visit: &mut NumberVisitor<'_>,
+) -> Result<(), EditError> {
     match at {
-        Found::Obstacle(_) | Found::Mark(_) => {
+        ThingIndex::Obstacle(_) | ThingIndex::Mark(_) => {
             if let Some(was) = shape_at(world, at) {
                 let mut shape = was.clone();
                 numbers::of_shape(&mut shape, visit);
@@ -172,9 +178,9 @@ fn visit(world: &mut World, at: Found, name: &str, kinds: &Kinds, visit: &mut Vi
                 }
             }
         }
-        Found::Door(i) => numbers::of_door(&mut world.doors[i], visit),
-        Found::Place(i) => numbers::pose(&mut world.places[i].pose, visit),
-        Found::Robot(i) => numbers::of_robot(&mut world.robots[i], kinds, visit),
+        ThingIndex::Door(i) => numbers::of_door(&mut world.doors[i], visit),
+        ThingIndex::Place(i) => numbers::pose(&mut world.places[i].pose, visit),
+        ThingIndex::Robot(i) => numbers::of_robot(&mut world.robots[i], kinds, visit),
     }
     Ok(())
 }
@@ -183,10 +189,12 @@ fn visit(world: &mut World, at: Found, name: &str, kinds: &Kinds, visit: &mut Vi
 pub(super) fn numbers_of(world: &World, name: &str, kinds: &Kinds) -> Vec<Number> {
     let Some(at) = find(world, name) else { return Vec::new() };
     match at {
-        Found::Obstacle(_) | Found::Mark(_) => shape_at(world, at).map_or_else(Vec::new, |shape| shape.numbers()),
-        Found::Door(i) => numbers::listed(|visit| numbers::of_door(&mut world.doors[i].clone(), visit)),
-        Found::Place(i) => numbers::listed(|visit| numbers::pose(&mut world.places[i].pose.clone(), visit)),
-        Found::Robot(i) => numbers::listed(|visit| numbers::of_robot(&mut world.robots[i].clone(), kinds, visit)),
+        ThingIndex::Obstacle(_) | ThingIndex::Mark(_) => {
+            shape_at(world, at).map_or_else(Vec::new, |shape| shape.numbers())
+        }
+        ThingIndex::Door(i) => numbers::listed(|visit| numbers::of_door(&mut world.doors[i].clone(), visit)),
+        ThingIndex::Place(i) => numbers::listed(|visit| numbers::pose(&mut world.places[i].pose.clone(), visit)),
+        ThingIndex::Robot(i) => numbers::listed(|visit| numbers::of_robot(&mut world.robots[i].clone(), kinds, visit)),
     }
 }
 
@@ -205,38 +213,38 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
         }
         Op::AddRobot(robot) => world.robots.push(robot.clone()),
         Op::Move { name, by } => match found(&world, name)? {
-            Found::Obstacle(i) => {
+            ThingIndex::Obstacle(i) => {
                 let moved = EditShape::of(&world.obstacles[i]).moved(*by);
-                reshape(&mut world, Found::Obstacle(i), name, &moved)?;
+                reshape(&mut world, ThingIndex::Obstacle(i), name, &moved)?;
             }
-            Found::Door(i) => {
+            ThingIndex::Door(i) => {
                 let door = &mut world.doors[i];
                 (door.a, door.b) = ((door.a + by).map(tidy), (door.b + by).map(tidy));
             }
-            Found::Place(i) => {
+            ThingIndex::Place(i) => {
                 let pose = &mut world.places[i].pose;
                 (pose.x, pose.y) = (tidy(pose.x + by.x), tidy(pose.y + by.y));
             }
-            Found::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
-            Found::Robot(i) => residents::move_by(&mut world.robots[i], *by, kinds)?,
+            ThingIndex::Mark(i) => world.marks[i].points.iter_mut().for_each(|p| *p = (*p + by).map(tidy)),
+            ThingIndex::Robot(i) => residents::move_by(&mut world.robots[i], *by, kinds)?,
         },
         Op::Drag { name, handle, to } => {
             let at = found(&world, name)?;
-            if let Found::Place(i) = at {
+            if let ThingIndex::Place(i) = at {
                 let pose = &mut world.places[i].pose;
                 if *handle == 0 {
                     (pose.x, pose.y) = (to.x, to.y);
                 } else {
                     pose.theta = atan2(to.y - pose.y, to.x - pose.x);
                 }
-            } else if let Found::Door(i) = at {
+            } else if let ThingIndex::Door(i) = at {
                 let door = &mut world.doors[i];
                 match handle {
                     0 => door.a = *to,
                     1 => door.b = *to,
                     _ => {}
                 }
-            } else if let Found::Robot(i) = at {
+            } else if let ThingIndex::Robot(i) = at {
                 let robot = &mut world.robots[i];
                 let from = stand(robot, kinds).ok_or_else(|| EditError::NoShape(name.clone()))?.at();
                 match handle {
@@ -254,8 +262,8 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
             reshape(&mut world, at, name, shape)?;
         }
         Op::SetPose { name, pose } => match found(&world, name)? {
-            Found::Place(i) => world.places[i].pose = *pose,
-            Found::Robot(i) => residents::put(&mut world.robots[i], pose.position(), Some(pose.theta), kinds)?,
+            ThingIndex::Place(i) => world.places[i].pose = *pose,
+            ThingIndex::Robot(i) => residents::put(&mut world.robots[i], pose.position(), Some(pose.theta), kinds)?,
             _ => return Err(EditError::NoShape(name.clone())),
         },
         Op::SetNumber { name, number, to } => {
@@ -268,7 +276,7 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
             }
         }
         Op::SetOpen { name, open } => match found(&world, name)? {
-            Found::Door(i) => world.doors[i].open = *open,
+            ThingIndex::Door(i) => world.doors[i].open = *open,
             _ => return Err(EditError::NoDoor(name.clone())),
         },
         Op::SetBounds { number, to } => {
@@ -280,20 +288,20 @@ pub(super) fn changed(world: &World, op: &Op, kinds: &Kinds) -> Result<World, Ed
         Op::RenameWorld(to) => to.clone_into(&mut world.name),
         Op::Rename { name, to } => {
             let slot = match found(&world, name)? {
-                Found::Obstacle(i) => &mut world.obstacles[i].name,
-                Found::Door(i) => &mut world.doors[i].name,
-                Found::Place(i) => &mut world.places[i].name,
-                Found::Mark(i) => &mut world.marks[i].name,
-                Found::Robot(i) => &mut world.robots[i].name,
+                ThingIndex::Obstacle(i) => &mut world.obstacles[i].name,
+                ThingIndex::Door(i) => &mut world.doors[i].name,
+                ThingIndex::Place(i) => &mut world.places[i].name,
+                ThingIndex::Mark(i) => &mut world.marks[i].name,
+                ThingIndex::Robot(i) => &mut world.robots[i].name,
             };
             to.clone_into(slot);
         }
         Op::Delete { name } => match found(&world, name)? {
-            Found::Obstacle(i) => drop(world.obstacles.remove(i)),
-            Found::Door(i) => drop(world.doors.remove(i)),
-            Found::Place(i) => drop(world.places.remove(i)),
-            Found::Mark(i) => drop(world.marks.remove(i)),
-            Found::Robot(i) => drop(world.robots.remove(i)),
+            ThingIndex::Obstacle(i) => drop(world.obstacles.remove(i)),
+            ThingIndex::Door(i) => drop(world.doors.remove(i)),
+            ThingIndex::Place(i) => drop(world.places.remove(i)),
+            ThingIndex::Mark(i) => drop(world.marks.remove(i)),
+            ThingIndex::Robot(i) => drop(world.robots.remove(i)),
         },
     }
     Ok(world)

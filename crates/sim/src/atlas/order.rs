@@ -43,7 +43,7 @@ impl Order<'_> {
     }
 
     /// Number of corners that are where they were, counted from both ends.
-    fn kept(&self, were: &[Point2]) -> usize {
+    fn unmoved_corners(&self, were: &[Point2]) -> usize {
         let (n, m) = (self.ring.len(), were.len());
         let both = if n < m { n } else { m };
         let before = (0..both).take_while(|i| self.corner(*i) == were[*i]).count();
@@ -81,8 +81,10 @@ fn ordered(ring: &[Point2], were: &[Point2]) -> Vec<Point2> {
         one_way(false).chain(one_way(true))
     };
     // one corner was moved, added or removed, and all others are where they were
-    let near = orders().enumerate().max_by_key(|(i, order)| (order.kept(were), Reverse(*i)));
-    let near = near.map(|(_, order)| order).filter(|order| order.kept(were) + 1 >= n && order.kept(were) + 1 >= m);
+    let near = orders().enumerate().max_by_key(|(i, order)| (order.unmoved_corners(were), Reverse(*i)));
+    let near = near
+        .map(|(_, order)| order)
+        .filter(|order| order.unmoved_corners(were) + 1 >= n && order.unmoved_corners(were) + 1 >= m);
     let sum = |points: &[Point2]| points.iter().fold(Vector2::zeros(), |sum, p| sum + p.coords);
     let moved = || {
         let by = (sum(ring) - sum(were)) / n as f64;

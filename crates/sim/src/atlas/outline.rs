@@ -2,7 +2,7 @@
 
 use motion_lab_core::geometry::{Point2, Pose2, Shape, Vector2, convex_hull};
 use motion_lab_core::num::hypot;
-use motion_lab_core::worlds::{Obstacle, ObstacleKind, OutlineError, Written};
+use motion_lab_core::worlds::{Obstacle, ObstacleKind, OutlineError, SourceShape};
 
 /// The shape of a wall, an obstacle or a painted mark, with its handles.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,9 +63,9 @@ impl EditShape {
             }
             return EditShape::Wall(points);
         }
-        let shape = |written: &Written<'_>| match written {
-            Written::Outline(points) => EditShape::Polygon(points.to_vec()),
-            Written::Piece((pose, shape)) => match shape {
+        let shape = |written: &SourceShape<'_>| match written {
+            SourceShape::Outline(points) => EditShape::Polygon(points.to_vec()),
+            SourceShape::Piece((pose, shape)) => match shape {
                 Shape::Disc { radius } => EditShape::Disc { centre: pose.position(), radius: *radius },
                 Shape::Rectangle { min, max } if *pose == Pose2::IDENTITY => EditShape::Box { min: *min, max: *max },
                 Shape::Polygon(_) => EditShape::Polygon(shape.place(pose).core().to_vec()),

@@ -1,6 +1,6 @@
 //! Overlays of the atlas: a refusal with its offer, a probe of the grid, a selected thing with its handles.
 
-use super::{Atlas, Editor, GridLayer, Handle, Refusal};
+use super::{Atlas, Editor, GridLayer, Handle, TeleportRefusal};
 use motion_lab_core::collision::Collision;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::geometry::{Aabb, Footprint, Part, Placed, Point2};
@@ -18,12 +18,12 @@ fn label(id: &str, at: Point2, anchor: Anchor, text: String) -> Item {
 impl Atlas {
     /// A refused teleport of robot number `index` to `wanted`: a red ghost with the reason, the outlines of everything
     /// it would overlap, and the nearest free configuration as a ghost with the way to it.
-    pub fn refusal_items(&self, index: usize, wanted: &AnyConfiguration, refusal: &Refusal) -> Vec<Item> {
+    pub fn refusal_items(&self, index: usize, wanted: &AnyConfiguration, refusal: &TeleportRefusal) -> Vec<Item> {
         let Some(resident) = self.robots().get(index) else { return Vec::new() };
         let robot = resident.robot;
         let mut items = Vec::new();
         let at = robot.reference(wanted);
-        if let Refusal::Overlap { names, nearest } = refusal {
+        if let TeleportRefusal::Overlap { names, nearest } = refusal {
             for name in names {
                 let outline = self.world().obstacle(name).map_or_else(Vec::new, around);
                 let region = Drawing::Region { pieces: Vec::new(), outline };
@@ -46,7 +46,7 @@ impl Atlas {
         }
         // the words stand under the ghosts, or over them where there is no room below
         let offered = match refusal {
-            Refusal::Overlap { nearest: Some(offer), .. } => robot.footprint(&offer.q),
+            TeleportRefusal::Overlap { nearest: Some(offer), .. } => robot.footprint(&offer.q),
             _ => Footprint::default(),
         };
         let shown = robot.footprint(wanted);

@@ -1,6 +1,6 @@
 //! `Atlas`, a world with its robots where the reader puts them.
 
-use super::teleport::{Refusal, Teleport};
+use super::teleport::{Teleport, TeleportRefusal};
 use motion_lab_core::collision::{Checker, ObstacleId};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, Kinds};
 use motion_lab_core::geometry::Footprint;
@@ -115,7 +115,7 @@ impl Atlas {
 
     /// The robots that could not be put where they stand, each with its name and the reason. Of the lab's robots it is
     /// what [`Teleport::ask_only`] says of each by its own [`checker`](Self::checker), from one scene for all.
-    pub fn in_contact(&self) -> Vec<(&str, Refusal)> {
+    pub fn in_contact(&self) -> Vec<(&str, TeleportRefusal)> {
         let standing: Vec<(&str, Footprint)> = self.standing().collect();
         // where the parts of each robot begin among the obstacles of the scene
         let world = self.world.obstacles.len() + self.world.closed_doors().count();
@@ -129,21 +129,22 @@ impl Atlas {
         let residents = self.residents.iter().map(Some).chain(std::iter::repeat(None));
         let refused = standing.iter().zip(first).zip(residents).filter_map(|(((name, footprint), first), resident)| {
             if let Some(Err(error)) = resident.map(|resident| resident.robot.check(&resident.q)) {
-                return Some((*name, Refusal::Configuration(error)));
+                return Some((*name, TeleportRefusal::Configuration(error)));
             }
             let own = first..first + footprint.parts().len();
             let touched = scene.touched(footprint);
             let others: Vec<ObstacleId> = touched.into_iter().filter(|id| !own.contains(&(id.0 as usize))).collect();
             // a footprint that is not finite is in contact, with nothing in particular
             let is_free = others.is_empty() && footprint.is_valid();
-            (!is_free)
-                .then(|| (*name, Refusal::Overlap { names: super::teleport::names(&scene, others), nearest: None }))
+            (!is_free).then(|| {
+                (*name, TeleportRefusal::Overlap { names: super::teleport::names(&scene, others), nearest: None })
+            })
         });
         refused.collect()
     }
 
     /// Puts robot number `index` at `to`, or returns why not. `None` for an unknown robot.
-    pub fn teleport(&mut self, index: usize, to: AnyConfiguration) -> Option<Result<(), Refusal>> {
+    pub fn teleport(&mut self, index: usize, to: AnyConfiguration) -> Option<Result<(), TeleportRefusal>> {
         let checker = self.checker(index)?;
         let answer = Teleport::ask(&checker, &to);
         if answer.is_ok() {

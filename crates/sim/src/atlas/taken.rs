@@ -1,4 +1,4 @@
-//! `Taken`, the room that labels on a world have taken.
+//! `OccupiedAreas`, the room that labels on a world have taken.
 
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::geometry::{Aabb, Footprint, Point2, Pose2, Shape};
@@ -6,9 +6,9 @@ use motion_lab_core::worlds::{Obstacle, ObstacleKind};
 
 /// Labels and leaders. Each scene has at least twice as many as the next one, so that adding one costs little.
 #[derive(Default)]
-pub(super) struct Taken(Vec<(Vec<Shape>, Scene)>);
+pub(super) struct OccupiedAreas(Vec<(Vec<Shape>, Scene)>);
 
-impl Taken {
+impl OccupiedAreas {
     /// Adds a label with its leader.
     pub(super) fn add(&mut self, mut shapes: Vec<Shape>) {
         while let Some((last, _)) = self.0.pop_if(|(last, _)| last.len() < 2 * shapes.len()) {
@@ -32,7 +32,7 @@ mod tests {
 
     #[test]
     fn what_was_added_is_in_the_way_and_few_scenes_hold_it() {
-        let mut taken = Taken::default();
+        let mut taken = OccupiedAreas::default();
         let at = |k: u32| f64::from(k) * 2.0;
         for k in 0..300 {
             let corner = |x: f64| Point2::new(at(k) + x, x);

@@ -1,6 +1,6 @@
 //! The configuration that a click or a drag on the plane asks for.
 
-use super::{Atlas, Refusal};
+use super::{Atlas, TeleportRefusal};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::num::{hypot, wrap};
@@ -15,8 +15,13 @@ impl Atlas {
     /// The configuration may be in contact: [`teleport`](Atlas::teleport) checks that. `None` for an unknown robot.
     ///
     /// # Errors
-    /// [`Refusal::OutOfReach`] for a point that an arm's tip cannot reach.
-    pub fn target(&self, index: usize, to: Point2, heading: Option<f64>) -> Option<Result<AnyConfiguration, Refusal>> {
+    /// [`TeleportRefusal::OutOfReach`] for a point that an arm's tip cannot reach.
+    pub fn target(
+        &self,
+        index: usize,
+        to: Point2,
+        heading: Option<f64>,
+    ) -> Option<Result<AnyConfiguration, TeleportRefusal>> {
         let resident = self.robots().get(index)?;
         let (robot, q) = (resident.robot, resident.q);
         if let Some((base, [least, most])) = robot.annulus() {
@@ -26,7 +31,7 @@ impl Atlas {
             let off = robot.reference(&sides[0]) - to;
             if hypot(off.x, off.y) > 1e-9 {
                 let away = to - base;
-                return Some(Err(Refusal::OutOfReach { least, most, wanted: hypot(away.x, away.y) }));
+                return Some(Err(TeleportRefusal::OutOfReach { least, most, wanted: hypot(away.x, away.y) }));
             }
             let checker = self.checker(index)?;
             return Some(Ok(sides.into_iter().find(|side| checker.is_free(side)).unwrap_or(sides[0])));

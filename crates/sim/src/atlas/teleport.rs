@@ -16,7 +16,7 @@ pub struct Teleport;
 /// Why a teleport is refused.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Refusal {
+pub enum TeleportRefusal {
     /// It would overlap or touch something.
     Overlap {
         /// The names of everything it would overlap or touch, in file order, other robots last.
@@ -38,36 +38,36 @@ pub enum Refusal {
     Configuration(ConfigurationError),
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for TeleportRefusal {
     /// In words: `would overlap the post`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::Overlap { names, .. } => match &names[..] {
+            TeleportRefusal::Overlap { names, .. } => match &names[..] {
                 [] => write!(f, "would overlap something"),
                 [one] => write!(f, "would overlap {one}"),
                 [head @ .., last] => write!(f, "would overlap {} and {last}", head.join(", ")),
             },
-            Refusal::OutOfReach { least, most, wanted } => {
+            TeleportRefusal::OutOfReach { least, most, wanted } => {
                 write!(f, "out of reach: {wanted:.2} m from the base, and the tip gets from {least:.2} to {most:.2} m")
             }
-            Refusal::Configuration(error) => write!(f, "{error}"),
+            TeleportRefusal::Configuration(error) => write!(f, "{error}"),
         }
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for TeleportRefusal {}
 
 impl Teleport {
     /// Checks whether the checker's robot can be put at `to`. It asks the query that decides teleports in a run, so a
     /// run accepts what is accepted here. Touching is refused.
     ///
     /// # Errors
-    /// [`Refusal`] with the names of everything it would overlap or touch, and the nearest free configuration.
-    pub fn ask(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), Refusal> {
+    /// [`TeleportRefusal`] with the names of everything it would overlap or touch, and the nearest free configuration.
+    pub fn ask(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), TeleportRefusal> {
         Self::ask_only(checker, to).map_err(|refusal| match refusal {
-            Refusal::Overlap { names, .. } => {
+            TeleportRefusal::Overlap { names, .. } => {
                 let slice = Slice::through(checker, to);
-                Refusal::Overlap { names, nearest: slice.ok().and_then(|slice| nearest_free(&slice, to)) }
+                TeleportRefusal::Overlap { names, nearest: slice.ok().and_then(|slice| nearest_free(&slice, to)) }
             }
             refusal => refusal,
         })
@@ -76,15 +76,15 @@ impl Teleport {
     /// As [`ask`](Self::ask), without the search for the nearest free configuration: for use during a drag.
     ///
     /// # Errors
-    /// [`Refusal`], whose `nearest` is `None`.
-    pub fn ask_only(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), Refusal> {
-        checker.robot().check(to).map_err(Refusal::Configuration)?;
+    /// [`TeleportRefusal`], whose `nearest` is `None`.
+    pub fn ask_only(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), TeleportRefusal> {
+        checker.robot().check(to).map_err(TeleportRefusal::Configuration)?;
         let footprint = checker.robot().footprint(to);
         if !checker.scene().intersects(&footprint) {
             return Ok(());
         }
         let names = names(checker.scene(), checker.scene().touched(&footprint));
-        Err(Refusal::Overlap { names, nearest: None })
+        Err(TeleportRefusal::Overlap { names, nearest: None })
     }
 }
 
@@ -128,7 +128,7 @@ mod tests {
         let refusal = atlas.teleport(0, on_the_pillar).unwrap().unwrap_err();
         assert_eq!(refusal.to_string(), "would overlap the west pillar");
         assert_eq!(atlas.robots()[0].q, car, "it stays where it is");
-        let Refusal::Overlap { nearest: Some(offer), .. } = refusal else { panic!("{refusal:?}") };
+        let TeleportRefusal::Overlap { nearest: Some(offer), .. } = refusal else { panic!("{refusal:?}") };
         assert!(offer.distance > 0.1 && offer.distance - offer.proven < 2e-3, "{offer:?}");
         assert_eq!(atlas.teleport(0, offer.q), Some(Ok(())));
         assert_eq!(atlas.robots()[0].q, offer.q);
@@ -151,7 +151,7 @@ mod tests {
         assert_eq!(refusal.to_string(), "would overlap the block and Reach");
         assert_eq!(atlas.teleport(7, rover), None);
         let wrong = atlas.robots()[0].q;
-        assert!(matches!(atlas.teleport(1, wrong), Some(Err(Refusal::Configuration(_)))));
+        assert!(matches!(atlas.teleport(1, wrong), Some(Err(TeleportRefusal::Configuration(_)))));
     }
 
     #[test]

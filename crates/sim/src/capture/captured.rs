@@ -12,7 +12,7 @@ pub type Note = (&'static str, String);
 
 /// The form of a captured file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Form {
+pub enum CaptureForm {
     /// Vector graphics.
     Svg,
     /// Pixels.
@@ -22,31 +22,31 @@ pub enum Form {
     Gif,
 }
 
-impl Form {
+impl CaptureForm {
     /// Every form.
-    pub const ALL: [Form; 3] = [Form::Png, Form::Svg, Form::Gif];
+    pub const ALL: [CaptureForm; 3] = [CaptureForm::Png, CaptureForm::Svg, CaptureForm::Gif];
 
     /// The form by a file's extension; `None` for any other.
-    pub fn of(path: &Path) -> Option<Form> {
+    pub fn of(path: &Path) -> Option<CaptureForm> {
         let extension = path.extension()?.to_str()?;
-        Form::ALL.into_iter().find(|form| form.extension() == extension)
+        CaptureForm::ALL.into_iter().find(|form| form.extension() == extension)
     }
 
     /// The extension of such files, without the dot.
     pub const fn extension(self) -> &'static str {
         match self {
-            Form::Svg => "svg",
-            Form::Png => "png",
-            Form::Gif => "gif",
+            CaptureForm::Svg => "svg",
+            CaptureForm::Png => "png",
+            CaptureForm::Gif => "gif",
         }
     }
 
     /// Its name.
     pub const fn name(self) -> &'static str {
         match self {
-            Form::Svg => "SVG",
-            Form::Png => "PNG",
-            Form::Gif => "GIF",
+            CaptureForm::Svg => "SVG",
+            CaptureForm::Png => "PNG",
+            CaptureForm::Gif => "GIF",
         }
     }
 }

@@ -1,14 +1,14 @@
-//! `Chart`, lines over axes, drawn as a picture in the pixels of its sheet.
+//! `PlotChart`, lines over axes, drawn as a picture in the pixels of its sheet.
 
 use std::f64::consts::PI;
 
-use super::marks::{Mark, angle_marks, marks};
+use super::marks::{AxisMark, angle_marks, marks};
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::num::{greater, lesser};
 use motion_lab_core::picture::{Anchor, Dash, Drawing, Face, Fill, Item, Line, Picture, Role};
 
 /// A line of a chart.
-pub(super) struct ChartLine {
+pub(super) struct PlotLine {
     /// Its name, in the legend.
     pub(super) name: String,
     /// Its pieces, left to right: between two of them the line is broken.
@@ -18,7 +18,7 @@ pub(super) struct ChartLine {
 }
 
 /// Lines over axes.
-pub(super) struct Chart<'a> {
+pub(super) struct PlotChart<'a> {
     /// What goes up, with its unit; it names the picture too.
     pub(super) up: &'a str,
     /// What goes across, with its unit.
@@ -29,8 +29,8 @@ pub(super) struct Chart<'a> {
     pub(super) only: Option<String>,
     /// Whether the values are angles in (-pi, pi]; the axis then shows them all.
     pub(super) angles: bool,
-    /// The lines, at most [`MOST_LINES`].
-    pub(super) lines: Vec<ChartLine>,
+    /// The lines, at most [`MAX_LINES`].
+    pub(super) lines: Vec<PlotLine>,
 }
 
 /// The look of the lines, which differ in colour, and neighbours in their dashes too.
@@ -53,7 +53,7 @@ const IN_CONTACT: &str = "in contact";
 const SHADE: f64 = 0.22;
 
 /// Largest number of lines in a chart: more could not be told apart.
-pub const MOST_LINES: usize = LOOKS.len();
+pub const MAX_LINES: usize = LOOKS.len();
 
 /// The height of the small letters, pixels.
 const SMALL: f64 = 11.0;
@@ -70,7 +70,7 @@ const TICK: f64 = 4.0;
 /// The length of a line's sample in the legend, pixels.
 const SAMPLE: f64 = 24.0;
 
-impl Chart<'_> {
+impl PlotChart<'_> {
     /// The picture of the chart, `width` pixels wide on its sheet. Its plane is in pixels, x right, y up.
     pub(super) fn picture(&self, width: f64) -> Picture {
         let legend = self.legend(width);
@@ -112,17 +112,17 @@ impl Chart<'_> {
         let mut items =
             vec![Item::new("axes", "the axes", Role::Muted, Drawing::Polyline(frame)).stroked(Line::solid(1.0))];
         let up = if self.angles { angle_marks() } else { marks(area.up, ((top - bottom) / 40.0) as usize) };
-        for Mark { at, text } in up {
+        for AxisMark { at, text } in up {
             let y = area.at([self.span[0], at]).y;
             let line = Drawing::segment(corner(left, y), corner(right, y));
             items.push(Item::new(format!("grid/{text}"), &text, Role::Hairline, line).stroked(Line::solid(1.0)));
             items.push(label(format!("up/{text}"), corner(left, y), &text, Anchor::Left));
         }
         let across = match &self.only {
-            Some(text) => vec![Mark { at: 0.5 * (self.span[0] + self.span[1]), text: text.clone() }],
+            Some(text) => vec![AxisMark { at: 0.5 * (self.span[0] + self.span[1]), text: text.clone() }],
             None => marks(self.span, ((right - left) / 70.0) as usize),
         };
-        for Mark { at, text } in across {
+        for AxisMark { at, text } in across {
             let x = area.at([at, 0.0]).x;
             let line = Drawing::segment(corner(x, bottom), corner(x, bottom - TICK));
             items.push(Item::new(format!("tick/{text}"), &text, Role::Muted, line).stroked(Line::solid(1.0)));
@@ -138,7 +138,7 @@ impl Chart<'_> {
             let within = area.drawn(&line.within_contacts());
             Item::new(format!("contact/{}", line.name), name, CONTACT, within).stroked(Line::solid(6.0).at_opacity(0.5))
         });
-        let lines = self.lines.iter().zip(LOOKS).map(|(ChartLine { name, pieces, .. }, (role, dash))| {
+        let lines = self.lines.iter().zip(LOOKS).map(|(PlotLine { name, pieces, .. }, (role, dash))| {
             Item::new(format!("line/{name}"), name, role, area.drawn(pieces)).stroked(Line::solid(1.5).dashed(dash))
         });
         contacts.chain(lines).collect()
@@ -171,7 +171,7 @@ impl Chart<'_> {
     }
 
     /// The lines in the legend: none where the only one is called as the axis that goes up.
-    fn listed(&self) -> &[ChartLine] {
+    fn listed(&self) -> &[PlotLine] {
         if matches!(&self.lines[..], [only] if only.name == self.up) { &[] } else { &self.lines }
     }
 
@@ -181,12 +181,12 @@ impl Chart<'_> {
     }
 
     /// The names of the axes and the legend.
-    fn words(&self, area: &Area, height: f64, legend: &[Entry]) -> Vec<Item> {
+    fn words(&self, area: &Area, height: f64, legend: &[LegendEntry]) -> Vec<Item> {
         let mut items = vec![
             label("up/name".into(), Point2::new(-6.0, height - 0.5 * LEADING), self.up, Anchor::Right),
             label("across/name".into(), Point2::new(area.right + 6.0, 0.5 * LEADING - 3.0), self.across, Anchor::Left),
         ];
-        for ((line, (role, dash)), Entry { row, left }) in self.listed().iter().zip(LOOKS).zip(legend) {
+        for ((line, (role, dash)), LegendEntry { row, left }) in self.listed().iter().zip(LOOKS).zip(legend) {
             let y = height - LEADING * (*row as f64 + 1.5);
             let sample = Drawing::segment(Point2::new(*left, y), Point2::new(left + SAMPLE, y));
             items.push(
@@ -194,13 +194,13 @@ impl Chart<'_> {
                     .stroked(Line::solid(1.5).dashed(dash)),
             );
         }
-        if let Some(Entry { row, left }) = legend.get(self.listed().len()) {
+        if let Some(LegendEntry { row, left }) = legend.get(self.listed().len()) {
             let y = height - LEADING * (*row as f64 + 1.5);
             let corners = [[*left, y - 5.0], [left + SAMPLE, y - 5.0], [left + SAMPLE, y + 5.0], [*left, y + 5.0]];
             let sample = Drawing::Polygon(corners.map(|[x, y]| Point2::new(x, y)).into());
             items.push(Item::new("legend/contacts", IN_CONTACT, CONTACT, sample).filled(Fill::Tint(SHADE)));
         }
-        for (name, Entry { row, left }) in self.names().zip(legend) {
+        for (name, LegendEntry { row, left }) in self.names().zip(legend) {
             let at = Point2::new(left + SAMPLE, height - LEADING * (*row as f64 + 1.5));
             items.push(label(format!("legend/{name}/name"), at, name, Anchor::Right));
         }
@@ -208,14 +208,14 @@ impl Chart<'_> {
     }
 
     /// Where each entry of the legend stands: as many in a row as have room.
-    fn legend(&self, width: f64) -> Vec<Entry> {
+    fn legend(&self, width: f64) -> Vec<LegendEntry> {
         let (mut row, mut left) = (0, 0.0);
         let entries = self.names().map(|name| {
             let room = SAMPLE + 24.0 + 0.55 * SMALL * name.chars().count() as f64;
             if left > 0.0 && left + room > width {
                 (row, left) = (row + 1, 0.0);
             }
-            let entry = Entry { row, left };
+            let entry = LegendEntry { row, left };
             left += room;
             entry
         });
@@ -224,7 +224,7 @@ impl Chart<'_> {
 }
 
 /// Where an entry of the legend stands: its row from the top, and its left end, pixels.
-struct Entry {
+struct LegendEntry {
     row: usize,
     left: f64,
 }
@@ -267,7 +267,7 @@ impl Area {
     }
 }
 
-impl ChartLine {
+impl PlotLine {
     /// The parts of its pieces in which its robot was in contact.
     fn within_contacts(&self) -> Vec<Vec<[f64; 2]>> {
         let mut contacts = self.contacts.iter().copied().peekable();
@@ -314,86 +314,4 @@ fn thinned(points: &[Point2]) -> Vec<Point2> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_dip_of_one_tick_is_drawn_among_a_million() {
-        let mut points: Vec<Point2> =
-            (0..1_000_000).map(|i| Point2::new(f64::from(i) / 2000.0, 100.0 + f64::from(i % 7))).collect();
-        points[400_001].y = 3.0;
-        points[700_003].y = 300.0;
-        let thin = thinned(&points);
-        assert!(thin.len() <= 4 * 500, "{}", thin.len());
-        let has = |i: usize| thin.contains(&points[i]);
-        assert!(has(0) && has(400_001) && has(700_003) && has(999_999));
-        assert!(thin.windows(2).all(|pair| pair[0].x <= pair[1].x));
-        assert_eq!(thinned(&points[..1]), points[..1]);
-    }
-
-    #[test]
-    fn a_chart_is_drawn_pixel_for_pixel_with_its_values_where_the_axes_say() {
-        let line = |name: &str, pieces: &[&[[f64; 2]]]| ChartLine {
-            name: name.into(),
-            pieces: pieces.iter().map(|piece| piece.to_vec()).collect(),
-            contacts: Vec::new(),
-        };
-        let lines = vec![line("a", &[&[[0.0, 0.0], [5.0, 10.0]], &[[10.0, 5.0]]]), line("b", &[])];
-        let chart = Chart { up: "height, m", across: "time, s", span: [0.0, 10.0], only: None, angles: false, lines };
-        for width in [200.0, 640.0, 1280.0] {
-            let picture = chart.picture(width - 56.0);
-            assert_eq!(motion_lab_core::picture::Figure::of(picture.clone()).px_per_metre(width), [1.0], "{width}");
-            let find = |id: &str| &picture.items.iter().find(|i| i.id == id).unwrap().drawing;
-            let Drawing::Region { outline, .. } = find("line/a") else { panic!("lines") };
-            let Drawing::Polyline(axes) = find("axes") else { panic!("a line") };
-            let (origin, right) = (axes[1], axes[2].x);
-            assert_eq!(outline[0][0], origin, "0 at 0 s is the corner");
-            assert!((outline[0][1].x - 0.5 * (origin.x + right)).abs() < 1e-9, "5 s is the middle of 10 s");
-            let top = picture.bounds.max.y;
-            assert!(outline[0][1].y > origin.y + 0.8 * (0.4 * width - 60.0) && outline[0][1].y < top, "up is up");
-            assert_eq!(outline[1].len(), 2, "a value alone is a dot");
-            assert!((outline[1][0].y - origin.y - 0.5 * (outline[0][1].y - origin.y)).abs() < 1e-9);
-            let low = picture.items.iter().filter(|i| i.id.starts_with("grid/")).count();
-            assert!(low >= 2, "{low} marks");
-        }
-    }
-
-    #[test]
-    fn contacts_are_shaded_from_their_beginning_to_their_end_and_belong_to_their_lines() {
-        let line = |name: &str, contacts: &[[f64; 2]]| ChartLine {
-            name: name.into(),
-            pieces: vec![(0..=4).map(|x| [f64::from(x), 1.0]).collect(), vec![[8.0, 2.0]]],
-            contacts: contacts.to_vec(),
-        };
-        let chart =
-            |lines| Chart { up: "u", across: "t", span: [0.0, 10.0], only: None, angles: false, lines }.picture(640.0);
-        let picture = chart(vec![line("a", &[[1.0, 3.0], [8.0, 9.0]]), line("b", &[[2.0, 4.0], [10.0, 10.5]])]);
-        let find = |id: &str| picture.items.iter().find(|i| i.id == id);
-        let Drawing::Region { pieces, .. } = &find("contacts").unwrap().drawing else { panic!("columns") };
-        let Drawing::Polyline(axes) = &find("axes").unwrap().drawing else { panic!("a line") };
-        let (left, right, bottom, top) = (axes[1].x, axes[2].x, axes[1].y, axes[0].y);
-        let at = |x: f64| left + 0.1 * x * (right - left);
-        let ends: Vec<[f64; 2]> = pieces.iter().map(|column| [column[0].x, column[1].x]).collect();
-        // 1 to 4 is one column of two robots; what begins at the end keeps a pixel
-        let expected = [[at(1.0), at(4.0)], [at(8.0), at(9.0)], [right - 1.0, right]];
-        let apart = ends.iter().flatten().zip(expected.iter().flatten()).map(|(a, b)| (a - b).abs());
-        assert!(ends.len() == 3 && apart.fold(0.0, greater) < 1e-9, "{ends:?}, not {expected:?}");
-        assert!(pieces.iter().all(|column| column[0].y == bottom && column[2].y == top), "as high as the axes");
-        let beneath = |id: &str| match &find(id).unwrap().drawing {
-            Drawing::Region { outline, .. } => outline.iter().map(|l| [l[0].x, l[l.len() - 1].x]).collect::<Vec<_>>(),
-            _ => panic!("lines"),
-        };
-        let near = |found: Vec<[f64; 2]>, expected: &[[f64; 2]]| {
-            let apart = found.iter().flatten().zip(expected.iter().flatten()).map(|(x, e)| (x - at(*e)).abs());
-            assert!(found.len() == expected.len() && apart.fold(0.0, greater) < 1e-9, "{found:?}");
-        };
-        // a value at the end of a contact is out of it
-        near(beneath("contact/a"), &[[1.0, 2.0], [8.0, 8.0]]);
-        near(beneath("contact/b"), &[[2.0, 3.0]]);
-        let order = |id: &str| picture.items.iter().position(|i| i.id == id);
-        assert!(order("contacts") < order("line/a") && order("contact/b") < order("line/a"), "lines are above");
-        assert!(find("legend/contacts").is_some() && find("legend/in contact/name").is_some());
-        let free = chart(vec![line("a", &[])]);
-        assert!(free.items.iter().all(|i| i.role != CONTACT && !i.id.contains("contact")), "none without any");
-    }
-}
+mod tests;

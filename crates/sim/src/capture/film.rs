@@ -3,7 +3,7 @@
 use bevy::app::App;
 
 use super::moving::Moving;
-use super::{CaptureError, Captured, Span, Subject};
+use super::{CaptureError, CaptureSpan, Captured, Subject};
 use crate::recording::Run;
 use crate::run::Log;
 
@@ -12,7 +12,7 @@ use crate::run::Log;
 pub struct Film<'a> {
     log: &'a Log,
     subject: &'a Subject,
-    span: Span,
+    span: CaptureSpan,
 }
 
 impl<'a> Film<'a> {
@@ -20,12 +20,12 @@ impl<'a> Film<'a> {
     ///
     /// # Errors
     /// [`CaptureError::NoTick`] names the tick that the log does not have.
-    pub fn try_new(log: &'a Log, subject: &'a Subject, span: Span) -> Result<Self, CaptureError> {
+    pub fn try_new(log: &'a Log, subject: &'a Subject, span: CaptureSpan) -> Result<Self, CaptureError> {
         Ok(Film { log, subject, span: span.within(log.frames().len() as u64)? })
     }
 
     /// Its ticks.
-    pub fn span(&self) -> Span {
+    pub fn span(&self) -> CaptureSpan {
         self.span
     }
 

@@ -1,6 +1,6 @@
 //! Histograms of many runs' numbers, side by side as a figure.
 
-use super::chart::{Chart, ChartLine};
+use super::chart::{PlotChart, PlotLine};
 use super::{Captured, Note};
 use motion_lab_core::picture::{Figure, Panel};
 
@@ -14,7 +14,7 @@ pub struct Distribution {
 }
 
 /// Largest number of bins.
-const MOST_BINS: usize = 40;
+const MAX_BINS: usize = 40;
 
 /// The width of one histogram, pixels.
 const WIDTH: f64 = 400.0;
@@ -40,8 +40,8 @@ pub fn histograms(title: &str, distributions: &[Distribution], notes: Vec<Note>)
             Some(value) => format!("{name} is {value} in all of {count} runs."),
             None => format!("{name} of {count} runs goes from {low:.3} to {high:.3}, median {median:.3}."),
         });
-        let line = ChartLine { name: "runs".into(), pieces: vec![outline(&bins)], contacts: vec![] };
-        let chart = Chart { up: "runs", across: name, span, only, angles: false, lines: vec![line] };
+        let line = PlotLine { name: "runs".into(), pieces: vec![outline(&bins)], contacts: vec![] };
+        let chart = PlotChart { up: "runs", across: name, span, only, angles: false, lines: vec![line] };
         panels.push(Panel { picture: chart.picture(WIDTH), heading: name.clone(), readout: Vec::new() });
     }
     let (title, description) = (title.to_owned(), sentences.join(" "));
@@ -59,7 +59,7 @@ struct Bin {
 /// The bins of ascending values, two of which differ.
 fn bins(values: &[f64]) -> Vec<Bin> {
     let (low, high) = (values.first().copied().unwrap_or(0.0), values.last().copied().unwrap_or(0.0));
-    let bins = (1..MOST_BINS).find(|n| n * n >= values.len()).unwrap_or(MOST_BINS);
+    let bins = (1..MAX_BINS).find(|n| n * n >= values.len()).unwrap_or(MAX_BINS);
     let edge = |i: usize| low + (high - low) * (i as f64 / bins as f64);
     let mut all: Vec<Bin> = (0..bins).map(|i| Bin { from: edge(i), to: edge(i + 1), count: 0 }).collect();
     for x in values {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 /// A mark of an axis, with its figure.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Mark {
+pub(super) struct AxisMark {
     /// Where it is.
     pub(super) at: f64,
     /// Its figure.
@@ -13,7 +13,7 @@ pub(super) struct Mark {
 
 /// Round marks between both ends, about `most` of them and at least two where there is room for two: multiples of 1, 2
 /// or 5 times a power of ten.
-pub(super) fn marks([low, high]: [f64; 2], most: usize) -> Vec<Mark> {
+pub(super) fn marks([low, high]: [f64; 2], most: usize) -> Vec<AxisMark> {
     const DECADES: [(f64, usize); 16] = [
         (1e-6, 6),
         (1e-5, 5),
@@ -38,13 +38,13 @@ pub(super) fn marks([low, high]: [f64; 2], most: usize) -> Vec<Mark> {
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
     let mark = |k: i64| {
         let at = k as f64 * step;
-        Mark { at, text: format!("{at:.places$}").replace('-', "\u{2212}") }
+        AxisMark { at, text: format!("{at:.places$}").replace('-', "\u{2212}") }
     };
     (first..=last).map(mark).collect()
 }
 
 /// The marks of an axis of angles.
-pub(super) fn angle_marks() -> Vec<Mark> {
+pub(super) fn angle_marks() -> Vec<AxisMark> {
     let marks = [
         (-PI, "\u{2212}\u{3c0}"),
         (-0.5 * PI, "\u{2212}\u{3c0}/2"),
@@ -52,14 +52,14 @@ pub(super) fn angle_marks() -> Vec<Mark> {
         (0.5 * PI, "\u{3c0}/2"),
         (PI, "\u{3c0}"),
     ];
-    marks.map(|(at, text)| Mark { at, text: text.into() }).into()
+    marks.map(|(at, text)| AxisMark { at, text: text.into() }).into()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn texts(marks: &[Mark]) -> Vec<&str> {
+    fn texts(marks: &[AxisMark]) -> Vec<&str> {
         marks.iter().map(|mark| mark.text.as_str()).collect()
     }
 

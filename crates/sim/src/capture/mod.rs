@@ -3,7 +3,7 @@
 //!
 //! A [`Captured`] is a figure with its notes. [`anatomy`], [`cspace`] and [`atlas`] make one of a scene without a run,
 //! [`at_tick`] of a run at a tick. A [`Paper`] gives its size and colours. The program writes a capture as SVG or
-//! PNG, or a [`Film`] over a [`Span`] of ticks as GIF; a page paints both out of the sheets as SVG.
+//! PNG, or a [`Film`] over a [`CaptureSpan`] of ticks as GIF; a page paints both out of the sheets as SVG.
 //!
 //! ```
 //! use motion_lab_sim::anatomy::{Anatomy, Tab};
@@ -28,13 +28,13 @@ mod scenes;
 mod space;
 mod tour_figure;
 
-pub use captured::{Captured, Form, Note, Paper, TICK_HUNDREDTHS};
-pub use chart::MOST_LINES;
+pub use captured::{CaptureForm, Captured, Note, Paper, TICK_HUNDREDTHS};
+pub use chart::MAX_LINES;
 pub use error::CaptureError;
 pub use film::Film;
 pub use histogram::{Distribution, histograms};
-pub use moving::{Span, Subject, at_tick, at_tick_with_robots};
-pub use plan::{Found, PlanSheet, plan, proven, unit};
+pub use moving::{CaptureSpan, Subject, at_tick, at_tick_with_robots};
+pub use plan::{PlanOutcome, PlanSheet, plan, proven, unit};
 pub use plot::{RunPlot, plot};
 pub use run_figure::{RunFigure, run_svg, with_names};
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy::app::App;
 
-use super::space::Space;
+use super::space::RobotSpace;
 use super::{CaptureError, Captured, Note};
 use crate::atlas::{Atlas, names};
 use crate::manifest::Widget;
@@ -110,7 +110,7 @@ impl Subject {
 
 /// A span of ticks, with a picture every `every` ticks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Span {
+pub struct CaptureSpan {
     /// The first tick.
     pub from: u64,
     /// The last.
@@ -119,17 +119,17 @@ pub struct Span {
     pub every: u64,
 }
 
-impl Span {
+impl CaptureSpan {
     /// The span, if the run has it.
     ///
     /// # Errors
     /// [`CaptureError::NoTick`] names the tick that is beyond `last`, or after the end of the span.
-    pub fn within(self, last: u64) -> Result<Span, CaptureError> {
-        let Span { from, to, every } = self;
+    pub fn within(self, last: u64) -> Result<CaptureSpan, CaptureError> {
+        let CaptureSpan { from, to, every } = self;
         if from > to || to > last {
             return Err(CaptureError::NoTick { tick: if from > to { from } else { to }, last });
         }
-        Ok(Span { from, to, every: std::cmp::max(every, 1) })
+        Ok(CaptureSpan { from, to, every: std::cmp::max(every, 1) })
     }
 
     /// Whether there is a picture for a tick.
@@ -211,7 +211,7 @@ pub(super) struct Moving<'a> {
     digest: String,
     subject: Subject,
     backdrops: Vec<Backdrop>,
-    space: Option<Space>,
+    space: Option<RobotSpace>,
 }
 
 impl<'a> Moving<'a> {
@@ -260,7 +260,7 @@ impl<'a> Moving<'a> {
             let nobody = || CaptureError::NotInRun("such robot".into());
             let view = views.iter().find(fits).ok_or_else(nobody)?;
             let world = standing.get(view.world as usize).ok_or_else(nobody)?;
-            self.space = Some(Space::new(Arc::clone(world), view, *finest, *annulus)?);
+            self.space = Some(RobotSpace::new(Arc::clone(world), view, *finest, *annulus)?);
         }
         let Some(space) = &mut self.space else { return Ok(()) };
         let view = views.iter().find(|view| view.id == space.robot);
@@ -355,33 +355,4 @@ fn drawing(view: &RobotView) -> Vec<Item> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::run::{Script, WorldChange, WorldEvent};
-    use motion_lab_core::random::Seed;
-
-    #[test]
-    fn every_picture_of_a_run_is_the_one_of_its_tick() {
-        let door = || "door A".to_owned();
-        let change = |tick, change| WorldEvent { tick, world: "Apartment".into(), change };
-        let changes = vec![change(2, WorldChange::Close(door())), change(3, WorldChange::Open(door()))];
-        let config = TourConfig { worlds: vec![World::apartment()], ticks: 3, sensor: None };
-        let log = Run::record(config, (Seed(3), Script::new(vec![], changes))).unwrap();
-        let space = Subject::Cspace { world: None, robot: None, kind: None, finest: 3, annulus: false };
-        for subject in [space, Subject::Dashboard { names: true, scan: false }] {
-            let mut moving = Moving::new(&log, subject.clone(), 640.0).unwrap();
-            let mut pictures = Vec::new();
-            let see = |run: &Recorder| {
-                moving.see(run)?;
-                pictures.push(moving.captured(run, true)?.figure);
-                Ok::<_, CaptureError>(())
-            };
-            Run::show(&log, see).unwrap();
-            for (tick, picture) in (0..).zip(&pictures) {
-                assert!(*picture == at_tick(&log, &subject, tick, 640.0).unwrap().figure, "tick {tick}");
-                let open = picture.panels[0].picture.items.iter().any(|item| item.id == "door/door A/leaf");
-                assert_eq!(open, tick != 2, "tick {tick}");
-            }
-        }
-    }
-}
+mod tests;

@@ -11,7 +11,7 @@ use motion_lab_core::robots::AnyRobot;
 
 /// What came of a plan.
 #[derive(Clone, Copy, Debug)]
-pub enum Found<'a> {
+pub enum PlanOutcome<'a> {
     /// Nothing yet.
     Growing,
     /// A path of the planner's.
@@ -36,7 +36,7 @@ pub struct PlanSheet<'a> {
     /// What the planner has done.
     pub effort: Effort,
     /// What came of it.
-    pub found: Found<'a>,
+    pub found: PlanOutcome<'a>,
     /// The slice of the configuration space beside the workspace, if it is shown.
     pub cells: Option<&'a CellMap>,
 }
@@ -47,20 +47,20 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
     let mut readout = vec![format!("{} iterations, {} edges asked", effort.iterations, effort.edges)];
     let by = format!("{} at seed {seed}", planner.title());
     let description = match found {
-        Found::Path(PathLengths { length, clearance }) => {
+        PlanOutcome::Path(PathLengths { length, clearance }) => {
             let clearance = proven(clearance);
             readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));
             format!("{by}: a path whose clearance is proven to be at least {clearance} m.")
         }
-        Found::None => {
+        PlanOutcome::None => {
             readout.push("no path".to_owned());
             format!("{by}: no path was found.")
         }
-        Found::Growing => {
+        PlanOutcome::Growing => {
             readout.push("no path yet".to_owned());
             format!("{by}: no path so far.")
         }
-        Found::File(_) => {
+        PlanOutcome::File(_) => {
             readout = vec!["as the file says; nothing of it is proven here".to_owned()];
             "A path from a file; nothing of it is proven here.".to_owned()
         }
@@ -68,7 +68,7 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
     let rounds = drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
     readout.extend(rounds.map(|(i, point)| format!("round {}: {point}", i + 1)));
     let (heading, source) = match found {
-        Found::File(name) => (name, vec![("File", name.to_owned())]),
+        PlanOutcome::File(name) => (name, vec![("File", name.to_owned())]),
         _ => (planner.title(), vec![("Planner", planner.id().to_owned()), ("Seed", seed.to_string())]),
     };
     let workspace = world(&task.world).with(workspace_items(&task.robot, drawn));

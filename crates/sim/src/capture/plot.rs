@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::chart::{Chart, ChartLine, MOST_LINES};
+use super::chart::{MAX_LINES, PlotChart, PlotLine};
 use super::{Captured, Note};
 use crate::run::{DT, Quantity, Series};
 use motion_lab_core::picture::Figure;
@@ -16,7 +16,7 @@ const BORDERS: f64 = 56.0;
 pub struct RunPlot<'a> {
     /// What the lines show.
     pub quantity: Quantity,
-    /// The lines; those beyond [`MOST_LINES`] are left out.
+    /// The lines; those beyond [`MAX_LINES`] are left out.
     pub series: &'a [Series],
     /// The last tick.
     pub ticks: u64,
@@ -29,23 +29,23 @@ pub struct RunPlot<'a> {
 /// A plot as a figure for a sheet of this width, pixels.
 pub fn plot(plot: &RunPlot<'_>, width_px: f64) -> Captured {
     let RunPlot { quantity, series, ticks, seed, digest } = plot;
-    let line = |series: &Series| ChartLine {
+    let line = |series: &Series| PlotLine {
         name: series.name(),
         pieces: pieces(series, quantity.wraps()),
         contacts: series.contacts.iter().map(seconds_of).collect(),
     };
     let seconds = DT * *ticks as f64;
-    let chart = Chart {
+    let chart = PlotChart {
         up: quantity.title(),
         across: "time, s",
         span: [0.0, if *ticks == 0 { DT } else { seconds }],
         only: None,
         angles: quantity.wraps(),
-        lines: series.iter().take(MOST_LINES).map(line).collect(),
+        lines: series.iter().take(MAX_LINES).map(line).collect(),
     };
     let mut figure = Figure::of(chart.picture(width_px - BORDERS));
     figure.title = format!("{} in a run of {seconds:.0} s at seed {seed}", quantity.title());
-    let drawn = &series[..series.len().min(MOST_LINES)];
+    let drawn = &series[..series.len().min(MAX_LINES)];
     let of_robots = drawn.chunk_by(|a, b| a.robot == b.robot).filter_map(|lines| contacts_sentence(&lines[0], *ticks));
     figure.description = drawn.iter().map(sentence).chain(of_robots).collect::<Vec<_>>().join(" ");
     figure.caption = vec![format!("Seed {seed}, {ticks} ticks ({seconds:.2} s)."), format!("Digest {digest}")];

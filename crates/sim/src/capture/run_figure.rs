@@ -15,10 +15,10 @@ use motion_lab_core::worlds::World;
 /// The data of a run's figure: each robot's trace, present footprint and contacts.
 #[derive(Default)]
 pub struct RunFigure {
-    robots: Vec<Watched>,
+    robots: Vec<FigureRun>,
 }
 
-struct Watched {
+struct FigureRun {
     world: u32,
     contacts: u32,
     tour: RobotTour,
@@ -28,7 +28,7 @@ impl RunFigure {
     /// Adds the robots of the next tick. The first call is for tick 0.
     pub fn watch(&mut self, robots: Vec<RobotView>) {
         if self.robots.is_empty() {
-            self.robots = robots.iter().map(Watched::new).collect();
+            self.robots = robots.iter().map(FigureRun::new).collect();
         }
         for (watched, robot) in self.robots.iter_mut().zip(robots) {
             watched.see(robot);
@@ -83,7 +83,7 @@ pub fn run_svg(log: &Log, tick: u64, theme: Theme, add: impl FnOnce(&mut App)) -
     Ok(figure.svg(&log.recipe, tick, digest, theme))
 }
 
-impl Watched {
+impl FigureRun {
     fn new(robot: &RobotView) -> Self {
         let tour = RobotTour {
             name: robot.name.clone(),
@@ -96,7 +96,7 @@ impl Watched {
             contacts: Vec::new(),
             readout: String::new(),
         };
-        Watched { world: robot.world, contacts: 0, tour }
+        FigureRun { world: robot.world, contacts: 0, tour }
     }
 
     fn see(&mut self, robot: RobotView) {

@@ -11,7 +11,7 @@ use motion_lab_core::robots::{AnyRobot, ConfigurationError, Robot};
 use motion_lab_core::worlds::World;
 
 /// A robot of a run, its configuration space and its path in it.
-pub(super) struct Space {
+pub(super) struct RobotSpace {
     /// The robot's id in the run.
     pub robot: u32,
     /// The number of its world in the run.
@@ -24,12 +24,12 @@ pub(super) struct Space {
     trace: Vec<AnyConfiguration>,
 }
 
-impl Space {
+impl RobotSpace {
     /// The robot at its present configuration in its world as it stands. An error for a kind that is not the lab's.
     pub fn new(standing: Arc<World>, view: &RobotView, finest: u32, annulus: bool) -> Result<Self, CaptureError> {
         let mut anatomy = anatomy(&standing, view)?;
         anatomy.show_annulus = annulus;
-        Ok(Space { robot: view.id, world: view.world, standing, anatomy, finest, map: None, trace: Vec::new() })
+        Ok(RobotSpace { robot: view.id, world: view.world, standing, anatomy, finest, map: None, trace: Vec::new() })
     }
 
     /// Adds the robot's configuration at the next tick, in its world as it then stands.
@@ -105,7 +105,7 @@ mod tests {
         let view = Recorder::new(config, BOOK_SEED).unwrap().view().remove(0);
         let full = Arc::new(World::workbench());
         let cleared = Arc::new(World { obstacles: Vec::new(), ..World::workbench() });
-        let mut space = Space::new(Arc::clone(&full), &view, 3, true).unwrap();
+        let mut space = RobotSpace::new(Arc::clone(&full), &view, 3, true).unwrap();
         let mut seen = |world: &Arc<World>| {
             space.see(world, &view).unwrap();
             let panels = space.captured(true).unwrap().figure.panels;

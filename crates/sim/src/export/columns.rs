@@ -9,7 +9,7 @@ const ROVER: [&str; 3] = ["left_wheel_rad", "right_wheel_rad", "waypoint"];
 
 /// One of the lists of numbers of a [`RobotState`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum List {
+pub enum StateList {
     /// The configuration.
     Configuration,
     /// The robot's own state beside it.
@@ -18,22 +18,22 @@ pub enum List {
     Target,
 }
 
-impl List {
+impl StateList {
     /// The name of a number without one of its own, before its place in the list.
     fn plain(self) -> &'static str {
         match self {
-            List::Configuration => "configuration",
-            List::Extra => "extra",
-            List::Target => "target",
+            StateList::Configuration => "configuration",
+            StateList::Extra => "extra",
+            StateList::Target => "target",
         }
     }
 
     /// The list of a state.
     pub fn of(self, state: &RobotState) -> &[f64] {
         match self {
-            List::Configuration => &state.configuration,
-            List::Extra => &state.extra,
-            List::Target => &state.target,
+            StateList::Configuration => &state.configuration,
+            StateList::Extra => &state.extra,
+            StateList::Target => &state.target,
         }
     }
 
@@ -49,20 +49,20 @@ impl List {
         let coordinates = kind.coordinates.iter().enumerate();
         let coordinates = coordinates.map(|(i, name)| format!("{name}_{}", if i < kind.lengths { "m" } else { "rad" }));
         match self {
-            List::Configuration => coordinates.collect(),
+            StateList::Configuration => coordinates.collect(),
             // what a program's own robots keep beside their configurations, nobody described
-            List::Extra if *kind == RobotKind::RUSTY => ROVER.map(str::to_owned).into(),
-            List::Target if kind.takes.contains(&InputKind::MoveTo) => {
+            StateList::Extra if *kind == RobotKind::RUSTY => ROVER.map(str::to_owned).into(),
+            StateList::Target if kind.takes.contains(&InputKind::MoveTo) => {
                 coordinates.map(|name| format!("target_{name}")).collect()
             }
-            List::Extra | List::Target => Vec::new(),
+            StateList::Extra | StateList::Target => Vec::new(),
         }
     }
 }
 
 /// The columns of one list in a table of all robots.
 pub struct Columns {
-    list: List,
+    list: StateList,
     /// Their names, each once.
     pub names: Vec<String>,
     /// For each robot and column, the place of the robot's number in its list.
@@ -72,7 +72,7 @@ pub struct Columns {
 impl Columns {
     /// The columns of a log with these kinds of robots. `widths` are the largest numbers of items of each robot's list
     /// in it.
-    pub fn new(list: List, log: &Log, kinds: &Kinds, widths: &[usize]) -> Self {
+    pub fn new(list: StateList, log: &Log, kinds: &Kinds, widths: &[usize]) -> Self {
         let there: Vec<Option<&RobotKind>> = residents(log).map(|resident| kinds.of(&resident.kind)).collect();
         // the lab's kinds come first, in their order, whatever the order of the robots
         let lab = RobotKind::ALL.into_iter().map(Some).filter(|kind| there.contains(kind));
@@ -117,14 +117,16 @@ mod tests {
 
     #[test]
     fn every_number_of_the_lab_s_kinds_has_a_name_with_its_unit() {
-        let of = |about| [List::Configuration, List::Extra, List::Target].map(|list| list.named(about).join(" "));
+        let of = |about| {
+            [StateList::Configuration, StateList::Extra, StateList::Target].map(|list| list.named(about).join(" "))
+        };
         let all = |kind| of(RobotKind::of(kind));
         assert_eq!(all("rusty"), ["x_m y_m theta_rad", "left_wheel_rad right_wheel_rad waypoint", ""]);
         assert_eq!(all("reach"), ["theta1_rad theta2_rad", "", "target_theta1_rad target_theta2_rad"]);
         assert_eq!(all("hitch"), ["x_m y_m theta_rad psi_rad", "", ""]);
         assert_eq!(all("reach3")[0], "theta1_rad theta2_rad theta3_rad");
         assert_eq!(all("x-train"), ["", "", ""]);
-        assert_eq!(List::Extra.numbered(1), "extra1");
+        assert_eq!(StateList::Extra.numbered(1), "extra1");
         // a program's own kind: its coordinates are described, what its robots keep beside them is not
         let sled = RobotKind { name: "x-sled", coordinates: &["x", "y", "tilt"], ..RobotKind::RUSTY };
         assert_eq!(of(Some(&sled)), ["x_m y_m tilt_rad", "", ""]);

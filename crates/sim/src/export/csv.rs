@@ -4,13 +4,13 @@ use std::fmt::Write;
 use std::io;
 
 use super::ExportError;
-use super::columns::{Columns, List, residents};
+use super::columns::{Columns, StateList, residents};
 use super::every_frame::every_frame;
 use crate::run::{DT, Frame, Log, RobotState};
 use motion_lab_core::configuration::Kinds;
 
 /// The columns of a log.
-struct Head {
+struct CsvHead {
     configuration: Columns,
     extra: Columns,
     target: Columns,
@@ -41,14 +41,14 @@ pub fn write_csv(log: &Log, ranges: bool, out: impl io::Write) -> Result<(), Exp
 /// # Errors
 /// As [`write_csv`].
 pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl io::Write) -> Result<(), ExportError> {
-    let head = Head::of(log, kinds, ranges);
+    let head = CsvHead::of(log, kinds, ranges);
     writeln!(out, "{}", head.names())?;
     let names: Vec<String> = log.recipe.config.robot_names().map(cell).collect();
     let mut row = String::new();
     for frame in every_frame(log) {
         for (number, (name, robot)) in names.iter().zip(&frame.robots).enumerate() {
             row.clear();
-            head.row(frame, Named { number, name }, robot, &mut row);
+            head.row(frame, NamedRobot { number, name }, robot, &mut row);
             row.push('\n');
             out.write_all(row.as_bytes())?;
         }
@@ -58,15 +58,15 @@ pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl 
 
 /// A robot's number by id, and its name as a cell.
 #[derive(Clone, Copy)]
-struct Named<'a> {
+struct NamedRobot<'a> {
     number: usize,
     name: &'a str,
 }
 
-impl Head {
+impl CsvHead {
     fn of(log: &Log, kinds: &Kinds, ranges: bool) -> Self {
-        let mut widths =
-            [List::Configuration, List::Extra, List::Target].map(|list| (list, vec![0; residents(log).count()]));
+        let mut widths = [StateList::Configuration, StateList::Extra, StateList::Target]
+            .map(|list| (list, vec![0; residents(log).count()]));
         let mut of_sensors: Vec<usize> = Vec::new();
         for frame in every_frame(log) {
             for (list, widths) in &mut widths {
@@ -82,7 +82,7 @@ impl Head {
             }
         }
         let [configuration, extra, target] = widths.map(|(list, widths)| Columns::new(list, log, kinds, &widths));
-        Head { configuration, extra, target, ranges: of_sensors }
+        CsvHead { configuration, extra, target, ranges: of_sensors }
     }
 
     fn names(&self) -> String {
@@ -104,7 +104,7 @@ impl Head {
         head
     }
 
-    fn row(&self, frame: &Frame, Named { number, name }: Named<'_>, robot: &RobotState, row: &mut String) {
+    fn row(&self, frame: &Frame, NamedRobot { number, name }: NamedRobot<'_>, robot: &RobotState, row: &mut String) {
         // taken apart by name, so that a field added later can't be forgotten here
         let RobotState {
             id,

@@ -26,14 +26,14 @@ impl Serialize for JsonNumber {
 
 impl<'de> Deserialize<'de> for JsonNumber {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Number)
+        deserializer.deserialize_any(NumberText)
     }
 }
 
 /// Reads a number, or the text of one that is not finite.
-struct Number;
+struct NumberText;
 
-impl Visitor<'_> for Number {
+impl Visitor<'_> for NumberText {
     type Value = JsonNumber;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

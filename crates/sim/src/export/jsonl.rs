@@ -4,7 +4,7 @@ use std::io::Write;
 
 use serde::{Serialize, Serializer};
 
-use super::columns::List;
+use super::columns::StateList;
 use super::every_frame::every_frame;
 use super::{ExportError, JsonNumber};
 use crate::run::{DT, Frame, Log, RobotScan, RobotState};
@@ -18,19 +18,19 @@ struct Tick<'a> {
     time_s: JsonNumber,
     /// Of the frame, as 32 hexadecimal digits.
     digest: String,
-    robots: Vec<Robot<'a>>,
+    robots: Vec<RobotJson<'a>>,
 }
 
 /// The numbers of a list by their names. One that is named and not there is null.
-struct Numbers<'a> {
-    list: List,
+struct NamedNumbers<'a> {
+    list: StateList,
     names: &'a [String],
     numbers: &'a [f64],
 }
 
-impl Serialize for Numbers<'_> {
+impl Serialize for NamedNumbers<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Numbers { list, names, numbers } = self;
+        let NamedNumbers { list, names, numbers } = self;
         let named = names.iter().enumerate().map(|(i, name)| (name.clone(), numbers.get(i).copied().map(JsonNumber)));
         let rest = numbers.iter().enumerate().skip(names.len());
         let rest = rest.map(|(i, x)| (list.numbered(i), Some(JsonNumber(*x))));
@@ -50,23 +50,23 @@ struct Still<'a> {
 
 impl<'a> Still<'a> {
     fn of(world: &'a World, resident: &'a Resident, kinds: &Kinds) -> Self {
-        let [configuration, extra, target] =
-            [List::Configuration, List::Extra, List::Target].map(|list| list.named(kinds.of(&resident.kind)));
+        let [configuration, extra, target] = [StateList::Configuration, StateList::Extra, StateList::Target]
+            .map(|list| list.named(kinds.of(&resident.kind)));
         Still { world, resident, configuration, extra, target }
     }
 }
 
 /// A robot's state after a tick, named as [`RobotState`] names it.
 #[derive(Serialize)]
-struct Robot<'a> {
+struct RobotJson<'a> {
     id: u32,
     name: &'a str,
     kind: &'a str,
     world: &'a str,
-    configuration: Numbers<'a>,
-    extra: Numbers<'a>,
+    configuration: NamedNumbers<'a>,
+    extra: NamedNumbers<'a>,
     channels: [i16; 2],
-    target: Numbers<'a>,
+    target: NamedNumbers<'a>,
     manual: bool,
     in_contact: bool,
     contacts: u32,
@@ -114,7 +114,7 @@ pub fn write_jsonl_of_kinds(log: &Log, kinds: &Kinds, mut out: impl Write) -> Re
     for frame in every_frame(log) {
         let robots = robots.iter().zip(&frame.robots).map(|(still, state)| {
             let (ranges_m, further_scans) = scans(log, still.resident, state.id, frame);
-            Robot { ranges_m, further_scans, ..robot(still, state) }
+            RobotJson { ranges_m, further_scans, ..robot(still, state) }
         });
         let tick = Tick {
             tick: frame.tick,
@@ -143,19 +143,23 @@ fn scans(log: &Log, resident: &Resident, id: u32, frame: &Frame) -> (Option<Vec<
 }
 
 /// A robot's state, still without its scans.
-fn robot<'a>(still: &'a Still<'a>, state: &'a RobotState) -> Robot<'a> {
+fn robot<'a>(still: &'a Still<'a>, state: &'a RobotState) -> RobotJson<'a> {
     // taken apart by name, so that a field added later can't be forgotten here
     let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
         state;
-    Robot {
+    RobotJson {
         id: *id,
         name: &still.resident.name,
         kind: &still.resident.kind,
         world: &still.world.name,
-        configuration: Numbers { list: List::Configuration, names: &still.configuration, numbers: configuration },
-        extra: Numbers { list: List::Extra, names: &still.extra, numbers: extra },
+        configuration: NamedNumbers {
+            list: StateList::Configuration,
+            names: &still.configuration,
+            numbers: configuration,
+        },
+        extra: NamedNumbers { list: StateList::Extra, names: &still.extra, numbers: extra },
         channels: *channels,
-        target: Numbers { list: List::Target, names: &still.target, numbers: target },
+        target: NamedNumbers { list: StateList::Target, names: &still.target, numbers: target },
         manual: *manual,
         in_contact: *in_contact,
         contacts: *contacts,

@@ -35,7 +35,7 @@ pub struct Formula(pub Vec<Term>);
 
 /// A formula of the chapter with what it says in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Told {
+pub struct ChapterFormula {
     at: Vec<String>,
     /// The formula.
     pub formula: Formula,
@@ -48,28 +48,33 @@ pub struct Told {
 /// A formula as it is written in the manifest.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Written {
+struct FormulaText {
     at: Vec<String>,
     formula: &'static str,
     spoken: String,
     code: &'static str,
 }
 
-static FORMULAS: LazyLock<Vec<Told>> = LazyLock::new(|| {
-    let written: Vec<Written> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap_or_default();
-    let told = |Written { at, formula, spoken, code }| Told { at, formula: Formula::parse(formula), spoken, code };
+static FORMULAS: LazyLock<Vec<ChapterFormula>> = LazyLock::new(|| {
+    let written: Vec<FormulaText> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap_or_default();
+    let told = |FormulaText { at, formula, spoken, code }| ChapterFormula {
+        at,
+        formula: Formula::parse(formula),
+        spoken,
+        code,
+    };
     written.into_iter().map(told).collect()
 });
 
-impl Told {
+impl ChapterFormula {
     /// The formulas of this name, in order: of a tab of the query anatomy, of a kind of robot as in `hitch.4`, with the
     /// number of its coordinates, or of the `annulus`. None for any other name.
-    pub fn of(name: &str) -> impl Iterator<Item = &'static Told> {
+    pub fn of(name: &str) -> impl Iterator<Item = &'static ChapterFormula> {
         FORMULAS.iter().filter(move |told| told.at.iter().any(|at| at == name))
     }
 
     /// All formulas.
-    pub fn all() -> &'static [Told] {
+    pub fn all() -> &'static [ChapterFormula] {
         &FORMULAS
     }
 
@@ -216,25 +221,25 @@ mod tests {
     #[test]
     fn the_chapters_formulas_are_whole_and_stand_at_tabs_and_robots_that_there_are() {
         let text = include_str!("../../assets/formulas.ron");
-        let parsed: Vec<Written> = ron::from_str(text).unwrap();
-        assert_eq!(parsed.len(), Told::all().len());
+        let parsed: Vec<FormulaText> = ron::from_str(text).unwrap();
+        assert_eq!(parsed.len(), ChapterFormula::all().len());
         let tabs = crate::anatomy::Tab::ALL.map(|tab| tab.name().to_owned());
         let kinds = RobotKind::ALL.into_iter().flat_map(|kind| {
             kind.spaces.iter().map(|space| format!("{}.{}", kind.name, space.coordinates)).collect::<Vec<_>>()
         });
         let places: Vec<String> = tabs.into_iter().chain(kinds).chain(["annulus".to_owned()]).collect();
         for place in &places {
-            assert!(Told::of(place).next().is_some(), "nothing is said of {place}");
+            assert!(ChapterFormula::of(place).next().is_some(), "nothing is said of {place}");
         }
-        for (told, Written { formula, .. }) in Told::all().iter().zip(&parsed) {
+        for (told, FormulaText { formula, .. }) in ChapterFormula::all().iter().zip(&parsed) {
             assert!(told.at().iter().all(|at| places.contains(at)) && told.spoken.ends_with('.'), "{:?}", told.at());
             // every role is one: as many terms with a role as braces, or more by their scripts
             let roles = told.formula.0.iter().filter(|term| term.role.is_some()).count();
             assert!(roles > 0 && roles >= formula.matches('{').count(), "{formula}");
             assert!(told.formula.0.iter().all(|term| !term.text.contains(['{', '}', '_', '^', ':'])), "{formula}");
         }
-        assert_eq!(Told::of("hitch.4").count(), 2);
-        assert!(Told::of("a cat").next().is_none());
+        assert_eq!(ChapterFormula::of("hitch.4").count(), 2);
+        assert!(ChapterFormula::of("a cat").next().is_none());
     }
 
     /// Whether a formula writes an angle otherwise than θ, or a joint's otherwise than θ with a subscript.
@@ -249,7 +254,7 @@ mod tests {
     #[test]
     fn an_angle_has_one_spelling() {
         assert!(["\u{3d1}_1", "\u{3b8}1", "\u{3b8}\u{2081}", "theta_1"].into_iter().all(misspells_an_angle));
-        let written: Vec<Written> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap();
+        let written: Vec<FormulaText> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap();
         let spaces = RobotKind::ALL.into_iter().flat_map(|kind| kind.spaces.iter().map(|space| space.formula));
         let formulas: Vec<&str> = written.iter().map(|written| written.formula).chain(spaces).collect();
         assert!(formulas.iter().filter(|formula| formula.contains('\u{3b8}')).count() >= 8, "there are angles");
@@ -281,9 +286,9 @@ mod tests {
         for (code, function) in functions {
             let (of, name) = code.split_once("::").unwrap();
             assert!(function.contains(of) && function.ends_with(&format!("::{name}")), "{code} is {function}");
-            assert!(Told::all().iter().any(|told| told.code == code), "{code} computes no formula");
+            assert!(ChapterFormula::all().iter().any(|told| told.code == code), "{code} computes no formula");
         }
-        assert!(Told::all().iter().all(|told| functions.iter().any(|(code, _)| *code == told.code)));
+        assert!(ChapterFormula::all().iter().all(|told| functions.iter().any(|(code, _)| *code == told.code)));
     }
 
     #[test]

@@ -1,12 +1,12 @@
 //! `Lesson`, a hint by itself, for which a link or a page asks.
 
-use super::{Deed, Hint, Widget};
+use super::{Hint, HintTask, Widget};
 
 /// A hint by itself, for which a link or a page asks by its id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lesson {
     /// What it asks for.
-    pub deed: Deed,
+    pub deed: HintTask,
     /// The widget that it is about.
     pub widget: Widget,
 }
@@ -14,7 +14,7 @@ pub struct Lesson {
 impl Lesson {
     /// All lessons, widget by widget: each hint is one.
     pub fn all() -> impl Iterator<Item = Lesson> {
-        let of = |widget: Widget| widget.text().hints.iter().map(move |hint| Lesson { deed: hint.deed, widget });
+        let of = |widget: Widget| widget.text().hints.iter().map(move |hint| Lesson { deed: hint.task, widget });
         Widget::ALL.into_iter().flat_map(of)
     }
 
@@ -37,7 +37,7 @@ impl Lesson {
 
     /// Its words.
     pub fn text(self) -> &'static str {
-        let hint: Option<&Hint> = self.widget.text().hints.iter().find(|hint| hint.deed == self.deed);
+        let hint: Option<&Hint> = self.widget.text().hints.iter().find(|hint| hint.task == self.deed);
         hint.map_or("", |hint| &hint.text)
     }
 }
@@ -50,12 +50,12 @@ mod tests {
     fn each_hint_is_a_lesson_with_an_id_of_its_own() {
         let ids: Vec<String> = Lesson::all().map(Lesson::id).collect();
         for (id, deed, widget) in [
-            ("two_elbows", Deed::TwoElbows, Widget::Dashboard),
-            ("near", Deed::Near, Widget::Anatomy),
-            ("free_ends", Deed::FreeEnds, Widget::Anatomy),
-            ("over_edge", Deed::OverEdge, Widget::Cspace),
-            ("pick_wall", Deed::PickWall, Widget::Atlas),
-            ("find_path", Deed::FindPath, Widget::Plan),
+            ("two_elbows", HintTask::TwoElbows, Widget::Dashboard),
+            ("near", HintTask::Near, Widget::Anatomy),
+            ("free_ends", HintTask::FreeEnds, Widget::Anatomy),
+            ("over_edge", HintTask::OverEdge, Widget::Cspace),
+            ("pick_wall", HintTask::PickWall, Widget::Atlas),
+            ("find_path", HintTask::FindPath, Widget::Plan),
         ] {
             assert_eq!(Lesson::of(id), Some(Lesson { deed, widget }));
             assert_eq!(ids.iter().filter(|other| *other == id).count(), 1, "{id}");

@@ -1,6 +1,6 @@
 //! The words of the widgets, read from `assets/widgets.ron`.
 
-use super::deed::Deed;
+use super::hint_task::HintTask;
 use motion_lab_core::picture::Role;
 use serde::Deserialize;
 use std::sync::LazyLock;
@@ -30,7 +30,7 @@ pub struct WidgetText {
 #[serde(deny_unknown_fields)]
 pub struct Hint {
     /// What it asks for.
-    pub deed: Deed,
+    pub task: HintTask,
     /// Its words.
     pub text: String,
     /// Whether it is about the arm with two links alone.

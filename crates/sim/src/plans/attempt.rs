@@ -1,4 +1,4 @@
-//! `Attempt`, a planner at work on its problem, whatever the robot.
+//! `PlanAttempt`, a planner at work on its problem, whatever the robot.
 
 use crate::run::Script;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
@@ -15,7 +15,7 @@ const DRAWN: u32 = 6;
 
 /// What drives a leg of a path: a speed, a steering angle and a time; nothing for the chart's straight lines.
 #[derive(Clone, Copy, Debug)]
-pub struct Driven {
+pub struct LegControl {
     /// Metres per second.
     pub v: f64,
     /// Radians.
@@ -27,7 +27,7 @@ pub struct Driven {
 /// A motion that a path may consist of.
 pub trait LegMotion: Motion + Clone + Send + 'static {
     /// What drives it.
-    fn driven(&self) -> Option<Driven>;
+    fn driven(&self) -> Option<LegControl>;
 
     /// Its length: metres driven, or the length of the line in the chart.
     fn length(&self) -> f64;
@@ -37,7 +37,7 @@ pub trait LegMotion: Motion + Clone + Send + 'static {
 }
 
 impl<R: Robot> LegMotion for ChartLine<R> {
-    fn driven(&self) -> Option<Driven> {
+    fn driven(&self) -> Option<LegControl> {
         None
     }
 
@@ -53,9 +53,9 @@ impl<R: Robot> LegMotion for ChartLine<R> {
 }
 
 impl LegMotion for HitchArc {
-    fn driven(&self) -> Option<Driven> {
+    fn driven(&self) -> Option<LegControl> {
         let control = self.control();
-        Some(Driven { v: control.v, phi: control.phi, seconds: self.seconds() })
+        Some(LegControl { v: control.v, phi: control.phi, seconds: self.seconds() })
     }
 
     fn length(&self) -> f64 {
@@ -69,13 +69,13 @@ impl LegMotion for HitchArc {
 
 /// A leg of a path, as files hold it.
 #[derive(Clone, Debug)]
-pub struct Leg {
+pub struct FileLeg {
     /// Where it begins.
     pub from: Vec<f64>,
     /// Where it ends.
     pub to: Vec<f64>,
     /// What drives it.
-    pub driven: Option<Driven>,
+    pub driven: Option<LegControl>,
     /// The steps that prove it free.
     pub steps: Vec<ProvenStep>,
 }
@@ -90,7 +90,7 @@ pub struct PathLengths {
 }
 
 /// A planner at work.
-pub trait Attempt: Send {
+pub trait PlanAttempt: Send {
     /// Works until there is a path.
     ///
     /// # Errors
@@ -110,7 +110,7 @@ pub trait Attempt: Send {
     fn effort(&self) -> Effort;
 
     /// The path's legs; none without a path.
-    fn legs(&self) -> Vec<Leg>;
+    fn legs(&self) -> Vec<FileLeg>;
 
     /// The path's length and the clearance proven along it; zeros without a path.
     fn lengths(&self) -> PathLengths;
@@ -157,7 +157,7 @@ impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration
     }
 }
 
-impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration = R::Configuration>> Attempt
+impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration = R::Configuration>> PlanAttempt
     for Trial<R, M>
 where
     CertifiedPath<M>: PlayablePath,
@@ -205,9 +205,9 @@ where
         self.planner.growth().effort()
     }
 
-    fn legs(&self) -> Vec<Leg> {
+    fn legs(&self) -> Vec<FileLeg> {
         let legs = self.path.iter().flat_map(|path| path.legs());
-        legs.map(|leg| Leg {
+        legs.map(|leg| FileLeg {
             from: leg.motion().at(0.0).coordinates().to_vec(),
             to: leg.motion().at(1.0).coordinates().to_vec(),
             driven: leg.motion().driven(),

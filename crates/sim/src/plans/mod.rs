@@ -24,10 +24,10 @@ mod path_file;
 mod picture;
 mod task;
 
-pub use attempt::{Attempt, Driven, Leg, LegMotion, PathLengths, Trial};
+pub use attempt::{FileLeg, LegControl, LegMotion, PathLengths, PlanAttempt, Trial};
 pub use bug1_sensor::{Bug1Sensor, Bug1Walk, WalkEnd};
 pub use drawn::{Drawn, Rejected};
 pub use named::PlannerName;
-pub use path_file::{Counts, MOST_PATH_BYTES, PathFile, PathFileError};
+pub use path_file::{Counts, MAX_PATH_BYTES, PathFile, PathFileError};
 pub use picture::{space_items, workspace_items};
 pub use task::{TUBE, Task};

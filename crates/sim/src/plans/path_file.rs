@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::attempt::{Attempt, Driven, Leg};
+use super::attempt::{FileLeg, LegControl, PlanAttempt};
 use super::drawn::Drawn;
 use super::task::Task;
 use crate::export::JsonNumber;
@@ -14,16 +14,16 @@ use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, Motion};
 const VERSION: u32 = 1;
 
 /// Largest size of a path's file that is read, bytes.
-pub const MOST_PATH_BYTES: usize = 64 << 20;
+pub const MAX_PATH_BYTES: usize = 64 << 20;
 
 /// Largest number of legs, of nodes and of edges that are read: each line becomes some hundred bytes of a picture.
-const MOST_LINES: usize = 300_000;
+const MAX_LINES: usize = 300_000;
 
 /// The number of straight pieces in which a motion is drawn.
 const DRAWN: u32 = 6;
 
 /// Longest drive of one leg that is drawn, seconds.
-const MOST_SECONDS: f64 = 3600.0;
+const MAX_SECONDS: f64 = 3600.0;
 
 /// What a planner has done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -116,7 +116,7 @@ struct GrowthLines {
 #[non_exhaustive]
 pub enum PathFileError {
     /// A file beyond the limit.
-    #[error("{found} bytes: a path's file has at most {MOST_PATH_BYTES}")]
+    #[error("{found} bytes: a path's file has at most {MAX_PATH_BYTES}")]
     TooLarge {
         /// Its size, bytes.
         found: usize,
@@ -137,7 +137,7 @@ pub enum PathFileError {
         field: String,
     },
     /// More to draw than fits a window's or a page's memory.
-    #[error("{what}: {found}; at most {MOST_LINES} are drawn")]
+    #[error("{what}: {found}; at most {MAX_LINES} are drawn")]
     TooMany {
         /// The list: `growth.edges`.
         what: &'static str,
@@ -162,8 +162,8 @@ fn numbers(numbers: &[f64]) -> Vec<JsonNumber> {
 }
 
 impl LegLine {
-    fn of(leg: &Leg) -> Self {
-        let control = |Driven { v, phi, seconds }: Driven| ControlLine {
+    fn of(leg: &FileLeg) -> Self {
+        let control = |LegControl { v, phi, seconds }: LegControl| ControlLine {
             v: JsonNumber(v),
             phi: JsonNumber(phi),
             seconds: JsonNumber(seconds),
@@ -189,7 +189,7 @@ impl LegLine {
             ("drive", Some(control), AnyRobot::Hitch(car), AnyConfiguration::Hitch(q)) => {
                 let ControlLine { v, phi, seconds } = control;
                 let command = CarCmd { v: v.0, phi: phi.0 };
-                let is_short = seconds.0 >= 0.0 && seconds.0 <= MOST_SECONDS;
+                let is_short = seconds.0 >= 0.0 && seconds.0 <= MAX_SECONDS;
                 let arc = is_short.then(|| car.drive(&q, &command, seconds.0).ok()).flatten().ok_or_else(kind)?;
                 let parts = (0..=DRAWN).map(|i| arc.at(f64::from(i) / f64::from(DRAWN)));
                 Ok(parts.map(AnyConfiguration::Hitch).collect())
@@ -221,7 +221,7 @@ fn chart_line(a: &AnyConfiguration, b: &AnyConfiguration) -> Vec<AnyConfiguratio
 
 impl PathFile {
     /// The path that an attempt has found by the planner of this name, with what it has grown if that is asked for.
-    pub fn new(planner: &str, seed: u64, task: &Task, attempt: &dyn Attempt, with_growth: bool) -> Self {
+    pub fn new(planner: &str, seed: u64, task: &Task, attempt: &dyn PlanAttempt, with_growth: bool) -> Self {
         let growth = || {
             let (nodes, edges) = attempt.growth();
             GrowthLines { nodes: nodes.iter().map(|node| numbers(node)).collect(), edges }
@@ -260,7 +260,7 @@ impl PathFile {
     /// # Errors
     /// [`PathFileError`] names the field.
     pub fn read(text: &str) -> Result<Self, PathFileError> {
-        if text.len() > MOST_PATH_BYTES {
+        if text.len() > MAX_PATH_BYTES {
             return Err(PathFileError::TooLarge { found: text.len() });
         }
         let file: PathFile = serde_json::from_str(text)?;
@@ -269,7 +269,7 @@ impl PathFile {
         }
         let [nodes, edges] = file.growth.as_ref().map_or([0; 2], |growth| [growth.nodes.len(), growth.edges.len()]);
         let lists = [("legs", file.legs.len()), ("growth.nodes", nodes), ("growth.edges", edges)];
-        if let Some((what, found)) = lists.into_iter().find(|(_, length)| *length > MOST_LINES) {
+        if let Some((what, found)) = lists.into_iter().find(|(_, length)| *length > MAX_LINES) {
             return Err(PathFileError::TooMany { what, found });
         }
         file.drawn(&file.robot()?.0).map(|_| file)
@@ -325,73 +325,4 @@ impl PathFile {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A path of one's own, as docs/formats.md says it: no more than what a reader needs.
-    const OWN: &str = r#"{"version": 1, "robot": {"kind": "reach"}, "start": [3.0, 0], "goal": [-3.0, 0.5],
-        "legs": [{"kind": "chart line", "from": [3.0, 0], "to": [-3.0, 0.5]}],
-        "growth": {"nodes": [[3.0, 0], [1, 1], [0, 2]], "edges": [[0, 1], [1, 2]]}}"#;
-
-    fn drawn(text: &str) -> Drawn {
-        let file = PathFile::read(text).unwrap();
-        file.drawn(&file.robot().unwrap().0).unwrap()
-    }
-
-    fn refused(from: &str, to: &str) -> String {
-        assert!(OWN.contains(from), "{from}");
-        PathFile::read(&OWN.replacen(from, to, 1)).unwrap_err().to_string()
-    }
-
-    #[test]
-    fn a_path_of_ones_own_is_drawn_the_short_way_round() {
-        let drawn = drawn(OWN);
-        assert_eq!((drawn.path.len(), drawn.corners.len(), drawn.edges.len()), (7, 2, 2));
-        // half of the short way from 3 to -3 goes over pi
-        let middle = drawn.path[3].coordinates();
-        assert!(
-            (middle[0].abs() - std::f64::consts::PI).abs() < 1e-12 && (middle[1] - 0.25).abs() < 1e-12,
-            "{middle:?}"
-        );
-    }
-
-    #[test]
-    fn a_driven_leg_is_drawn_as_it_is_driven() {
-        let car = r#"{"version": 1, "robot": {"kind": "hitch"}, "start": [0, 0, 0], "goal": [1, 0, 0], "legs": [{"kind":
-            "drive", "from": [0, 0, 0], "to": [1, 0, 0], "control": {"v": 1, "phi": 0.5, "seconds": 2}}]}"#;
-        let drawn = drawn(car);
-        // in 2 s at 1 m/s the heading turns by 2 tan(phi) / wheelbase
-        let turn = 2.0 * motion_lab_core::num::tan(0.5) / motion_lab_core::robots::HITCH.wheelbase;
-        let end = drawn.path[6].coordinates();
-        assert!((end[2] - turn).abs() < 1e-9, "{end:?} {turn}");
-        let parked = car.replace("\"v\": 1", "\"v\": \"inf\"");
-        assert!(PathFile::read(&parked).unwrap_err().to_string().starts_with("legs[0].kind"), "{parked}");
-        let for_ever = car.replace("\"seconds\": 2", "\"seconds\": 1e300");
-        assert!(PathFile::read(&for_ever).is_err());
-    }
-
-    #[test]
-    fn a_refusal_names_the_field() {
-        for (from, to, words) in [
-            ("\"version\": 1", "\"version\": 2", "version 2"),
-            ("\"reach\"", "\"tortoise\"", "robot.kind: no kind of the lab is called \"tortoise\""),
-            ("\"start\": [3.0, 0]", "\"start\": [3.0]", "robot.kind"),
-            ("\"goal\": [-3.0, 0.5]", "\"goal\": [-3.0, \"inf\"]", "goal: no configuration"),
-            ("\"from\": [3.0, 0]", "\"from\": [3.0, 0, 0]", "legs[0].from"),
-            ("chart line", "leap", "legs[0].kind: \"leap\""),
-            ("[1, 1]", "[1]", "growth.nodes[1]"),
-            ("[1, 2]]", "[1, 3]]", "growth.edges[1]: there is no such node"),
-            ("\"goal\"", "\"gaol\"", "missing field `goal`"),
-        ] {
-            assert!(refused(from, to).contains(words), "{}", refused(from, to));
-        }
-        let edges =
-            format!(r#""legs": [], "growth": {{"nodes": [[2, 0]], "edges": [{}[0, 0]]}}"#, "[0,0],".repeat(300_000));
-        let many =
-            format!(r#"{{"version": 1, "robot": {{"kind": "reach"}}, "start": [2, 0], "goal": [3, 0], {edges}}}"#);
-        let many = PathFile::read(&many).unwrap_err().to_string();
-        assert_eq!(many, "growth.edges: 300001; at most 300000 are drawn");
-        let large = PathFile::read(&" ".repeat(MOST_PATH_BYTES + 1)).unwrap_err().to_string();
-        assert!(large.starts_with("67108865 bytes"), "{large}");
-    }
-}
+mod tests;

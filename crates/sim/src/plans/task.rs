@@ -17,7 +17,7 @@ use motion_lab_core::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Robot
 use motion_lab_core::sensors::BeamModel;
 use motion_lab_core::worlds::{Resident, World};
 
-use super::attempt::{Attempt, Trial};
+use super::attempt::{PlanAttempt, Trial};
 use super::bug1_sensor::Bug1Sensor;
 use super::named::PlannerName;
 
@@ -25,7 +25,7 @@ use super::named::PlannerName;
 pub const TUBE: f64 = 0.02;
 
 /// The least tube in which a path is played, metres: no follower stays on a line without any width.
-const LEAST_TUBE: f64 = 1e-3;
+const MIN_TUBE: f64 = 1e-3;
 
 /// What is to be planned.
 #[derive(Clone, Debug)]
@@ -70,9 +70,9 @@ impl Task {
 
     /// The path of an attempt at this task, played by the robot alone in the world, which is returned too; no path
     /// without one of the attempt's.
-    pub fn played(&self, attempt: &dyn Attempt, seed: Seed) -> (World, Option<Result<PlayedPath, PlayError>>) {
+    pub fn played(&self, attempt: &dyn PlanAttempt, seed: Seed) -> (World, Option<Result<PlayedPath, PlayError>>) {
         let (world, robot) = self.alone();
-        let stage = PlayStage { tube: greater(self.tube, LEAST_TUBE), ..PlayStage::new(&world, &robot, seed) };
+        let stage = PlayStage { tube: greater(self.tube, MIN_TUBE), ..PlayStage::new(&world, &robot, seed) };
         let played = attempt.play(&stage);
         (world, played)
     }
@@ -81,7 +81,7 @@ impl Task {
     ///
     /// # Errors
     /// [`NoPath`]: there is no problem, or the planner does not suit the robot.
-    pub fn attempt(&self, name: PlannerName, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+    pub fn attempt(&self, name: PlannerName, seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
         name.suits(&self.robot).map_err(NoPath::Unsuited)?;
         match (self.robot, self.start, self.goal) {
             (AnyRobot::Reach(arm), AnyConfiguration::T2(start), AnyConfiguration::T2(goal)) => {
@@ -117,7 +117,7 @@ impl Task {
     }
 
     /// The planner by cells, which plans for a robot of any kind.
-    fn by_cells(&self, seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+    fn by_cells(&self, seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
         // a rover's heading does not matter
         let [start, goal] = [self.start, self.goal].map(|q| match q {
             AnyConfiguration::Pose(pose) => AnyConfiguration::Pose(Pose2::new(pose.x, pose.y, 0.0)),
@@ -128,7 +128,7 @@ impl Task {
     }
 
     /// The planner whose rover walks by its range sensor.
-    fn by_sensor(&self, robot: RustyDisc, [start, goal]: [R2; 2], seed: Seed) -> Result<Box<dyn Attempt>, NoPath> {
+    fn by_sensor(&self, robot: RustyDisc, [start, goal]: [R2; 2], seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
         let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), robot), start, goal, seed)?;
         let noise = self.noise.map(|model| (model, Stream::new(seed, "bug1/beam")));
         Ok(Box::new(Trial::new(Box::new(Bug1Sensor::new(problem, noise)))))
@@ -141,7 +141,7 @@ impl Task {
         [start, goal]: [R::Configuration; 2],
         name: PlannerName,
         seed: Seed,
-    ) -> Result<Box<dyn Attempt>, NoPath>
+    ) -> Result<Box<dyn PlanAttempt>, NoPath>
     where
         R: Robot<Configuration: Chart + Into<AnyConfiguration>> + Send,
         LinePath<R>: PlayablePath,
@@ -213,7 +213,7 @@ mod tests {
         for task in tasks() {
             let mut attempt = task.attempt(PlannerName::default_for(&task.robot), Seed(3)).unwrap();
             let mut rejected = 0;
-            let refused = |attempt: &dyn Attempt| attempt.effort().edges - attempt.effort().free;
+            let refused = |attempt: &dyn PlanAttempt| attempt.effort().edges - attempt.effort().free;
             let mut before = 0;
             while attempt.step() == Progress::Growing {
                 let now = refused(attempt.as_ref());

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::field::{Field, Value};
+use super::field::{FrameField, Value};
 use super::{Frame, RobotScan};
 use crate::tour::TourConfig;
 
@@ -133,14 +133,14 @@ pub fn first_divergence(expected: &[Frame], found: &[Frame]) -> Option<Divergenc
 
 fn differing_value(expected: &Frame, found: &Frame) -> Option<Divergence> {
     let values = |frame: &Frame| {
-        let mut values: Vec<(Option<u32>, Field, Value)> = Vec::new();
-        frame.visit(&mut |robot: Option<u32>, field: Field, value: Value| values.push((robot, field, value)));
+        let mut values: Vec<(Option<u32>, FrameField, Value)> = Vec::new();
+        frame.visit(&mut |robot: Option<u32>, field: FrameField, value: Value| values.push((robot, field, value)));
         values
     };
     let (a, b) = (values(expected), values(found));
     let at = a.iter().zip(&b).position(|((_, _, x), (_, _, y))| x.bits() != y.bits())?;
     let ((robot, field, expected_value), (_, _, found_value)) = (a[at], b[at]);
-    let scans = a[..=at].iter().filter(|(_, field, _)| *field == Field::one("scan.robot")).count();
+    let scans = a[..=at].iter().filter(|(_, field, _)| *field == FrameField::one("scan.robot")).count();
     Some(Divergence {
         tick: expected.tick,
         robot,

@@ -1,27 +1,27 @@
-//! `Field` and `Value`, the named leaves of a frame.
+//! `FrameField` and `Value`, the named leaves of a frame.
 
 use std::fmt;
 
 /// The name of a value of a frame: `contacts`, `configuration[2]`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Field {
+pub(super) struct FrameField {
     name: &'static str,
     index: Option<usize>,
 }
 
-impl Field {
+impl FrameField {
     /// A value that is not in a list.
     pub const fn one(name: &'static str) -> Self {
-        Field { name, index: None }
+        FrameField { name, index: None }
     }
 
     /// An item of a list.
     pub const fn item(name: &'static str, index: usize) -> Self {
-        Field { name, index: Some(index) }
+        FrameField { name, index: Some(index) }
     }
 }
 
-impl fmt::Display for Field {
+impl fmt::Display for FrameField {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.index {
             Some(index) => write!(f, "{}[{index}]", self.name),

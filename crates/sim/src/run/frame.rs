@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::field::{Field, Value};
+use super::field::{FrameField, Value};
 use motion_lab_core::configuration::Coordinates;
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::short_list::ShortList;
@@ -93,24 +93,24 @@ impl Frame {
     ///
     /// This one order serves the canonical encoding, the digest and the search for a divergence. A list's length comes
     /// before its items, so the values of two frames correspond up to their first difference.
-    pub(super) fn visit(&self, visit: &mut impl Visit) {
+    pub(super) fn visit(&self, visit: &mut impl FrameVisitor) {
         // destructured by name, so that a field added later cannot be forgotten here
         let Frame { tick, robots, scans, obstacles } = self;
-        visit.value(None, Field::one("tick"), Value::Count(*tick));
-        visit.value(None, Field::one("robots.len"), Value::of_len(robots.len()));
+        visit.value(None, FrameField::one("tick"), Value::Count(*tick));
+        visit.value(None, FrameField::one("robots.len"), Value::of_len(robots.len()));
         for robot in robots {
             robot.visit(visit);
         }
-        visit.value(None, Field::one("scans.len"), Value::of_len(scans.len()));
+        visit.value(None, FrameField::one("scans.len"), Value::of_len(scans.len()));
         for RobotScan { robot, ranges } in scans {
-            visit.value(Some(*robot), Field::one("scan.robot"), Value::Count(u64::from(*robot)));
+            visit.value(Some(*robot), FrameField::one("scan.robot"), Value::Count(u64::from(*robot)));
             visit_list(Some(*robot), "ranges.len", "ranges", ranges, visit);
         }
         visit.count_of_obstacles(obstacles.len());
         for ObstacleState { world, obstacle, present, pose } in obstacles {
-            visit.value(None, Field::one("obstacle.world"), Value::Count(u64::from(*world)));
-            visit.value(None, Field::one("obstacle.number"), Value::Count(u64::from(*obstacle)));
-            visit.value(None, Field::one("obstacle.present"), Value::Flag(*present));
+            visit.value(None, FrameField::one("obstacle.world"), Value::Count(u64::from(*world)));
+            visit.value(None, FrameField::one("obstacle.number"), Value::Count(u64::from(*obstacle)));
+            visit.value(None, FrameField::one("obstacle.present"), Value::Flag(*present));
             let Pose2 { x, y, theta } = *pose;
             visit.floats(None, "obstacle.pose", &[x, y, theta]);
         }
@@ -140,13 +140,13 @@ impl Frame {
     /// An `f64` is encoded as its bits. Frames that differ in a bit have different encodings. A sequence of encodings
     /// can be read in one way only: a tick is below 2^63, so the word after the scans says which of the two it is.
     pub fn encode(&self, out: &mut Vec<u8>) {
-        self.visit(&mut Words(out));
+        self.visit(&mut FrameWords(out));
     }
 
     /// Calls `take` with the canonical encoding, piece by piece, so that a large frame's is never in memory as a whole.
     pub(super) fn encode_in_pieces(&self, room: &mut Vec<u8>, take: impl FnMut(&[u8])) {
         room.resize(PIECE, 0);
-        let mut pieces = Pieces { room: room.as_chunks_mut().0, count: 0, take };
+        let mut pieces = WordBatches { room: room.as_chunks_mut().0, count: 0, take };
         self.visit(&mut pieces);
         pieces.pass_on();
     }
@@ -169,50 +169,56 @@ impl Frame {
 }
 
 impl RobotState {
-    fn visit(&self, visit: &mut impl Visit) {
+    fn visit(&self, visit: &mut impl FrameVisitor) {
         let RobotState { id, configuration, extra, channels, target, manual, in_contact, contacts, flash, refusals } =
             self;
         let robot = Some(*id);
-        visit.value(robot, Field::one("id"), Value::Count(u64::from(*id)));
+        visit.value(robot, FrameField::one("id"), Value::Count(u64::from(*id)));
         visit_list(robot, "configuration.len", "configuration", configuration, visit);
         visit_list(robot, "extra.len", "extra", extra, visit);
         for (i, channel) in channels.iter().enumerate() {
-            visit.value(robot, Field::item("channels", i), Value::Integer(i64::from(*channel)));
+            visit.value(robot, FrameField::item("channels", i), Value::Integer(i64::from(*channel)));
         }
         visit_list(robot, "target.len", "target", target, visit);
-        visit.value(robot, Field::one("manual"), Value::Flag(*manual));
-        visit.value(robot, Field::one("in_contact"), Value::Flag(*in_contact));
-        visit.value(robot, Field::one("contacts"), Value::Count(u64::from(*contacts)));
-        visit.value(robot, Field::one("flash"), Value::Count(u64::from(*flash)));
-        visit.value(robot, Field::one("refusals"), Value::Count(u64::from(*refusals)));
+        visit.value(robot, FrameField::one("manual"), Value::Flag(*manual));
+        visit.value(robot, FrameField::one("in_contact"), Value::Flag(*in_contact));
+        visit.value(robot, FrameField::one("contacts"), Value::Count(u64::from(*contacts)));
+        visit.value(robot, FrameField::one("flash"), Value::Count(u64::from(*flash)));
+        visit.value(robot, FrameField::one("refusals"), Value::Count(u64::from(*refusals)));
     }
 }
 
-fn visit_list(robot: Option<u32>, len_name: &'static str, name: &'static str, list: &[f64], visit: &mut impl Visit) {
-    visit.value(robot, Field::one(len_name), Value::of_len(list.len()));
+fn visit_list(
+    robot: Option<u32>,
+    len_name: &'static str,
+    name: &'static str,
+    list: &[f64],
+    visit: &mut impl FrameVisitor,
+) {
+    visit.value(robot, FrameField::one(len_name), Value::of_len(list.len()));
     visit.floats(robot, name, list);
 }
 
 /// A visitor of the values of a frame.
-pub(super) trait Visit {
+pub(super) trait FrameVisitor {
     /// A value.
-    fn value(&mut self, robot: Option<u32>, field: Field, value: Value);
+    fn value(&mut self, robot: Option<u32>, field: FrameField, value: Value);
 
     /// The number of obstacles that are not as at the start.
     fn count_of_obstacles(&mut self, count: usize) {
-        self.value(None, Field::one("obstacles.len"), Value::of_len(count));
+        self.value(None, FrameField::one("obstacles.len"), Value::of_len(count));
     }
 
     /// The items of a list.
     fn floats(&mut self, robot: Option<u32>, name: &'static str, list: &[f64]) {
         for (i, x) in list.iter().enumerate() {
-            self.value(robot, Field::item(name, i), Value::Float(*x));
+            self.value(robot, FrameField::item(name, i), Value::Float(*x));
         }
     }
 }
 
-impl<F: FnMut(Option<u32>, Field, Value)> Visit for F {
-    fn value(&mut self, robot: Option<u32>, field: Field, value: Value) {
+impl<F: FnMut(Option<u32>, FrameField, Value)> FrameVisitor for F {
+    fn value(&mut self, robot: Option<u32>, field: FrameField, value: Value) {
         self(robot, field, value);
     }
 }
@@ -223,8 +229,8 @@ const CHANGED: u64 = 1 << 63;
 /// The first NaN of a robot.
 struct FirstNan(Option<(u32, String)>);
 
-impl Visit for FirstNan {
-    fn value(&mut self, robot: Option<u32>, field: Field, value: Value) {
+impl FrameVisitor for FirstNan {
+    fn value(&mut self, robot: Option<u32>, field: FrameField, value: Value) {
         if let (None, Some(robot), Value::Float(x)) = (&self.0, robot, value)
             && x.is_nan()
         {
@@ -235,16 +241,16 @@ impl Visit for FirstNan {
     fn floats(&mut self, robot: Option<u32>, name: &'static str, list: &[f64]) {
         // the whole list at once, because nearly none holds a NaN
         if list.iter().fold(false, |any, x| any | x.is_nan()) {
-            (0..).zip(list).for_each(|(i, x)| self.value(robot, Field::item(name, i), Value::Float(*x)));
+            (0..).zip(list).for_each(|(i, x)| self.value(robot, FrameField::item(name, i), Value::Float(*x)));
         }
     }
 }
 
 /// Appends the values as words. Lists are appended in one go, because scans are most of a frame.
-struct Words<'a>(&'a mut Vec<u8>);
+struct FrameWords<'a>(&'a mut Vec<u8>);
 
-impl Visit for Words<'_> {
-    fn value(&mut self, _robot: Option<u32>, _field: Field, value: Value) {
+impl FrameVisitor for FrameWords<'_> {
+    fn value(&mut self, _robot: Option<u32>, _field: FrameField, value: Value) {
         self.0.extend_from_slice(&value.bits().to_le_bytes());
     }
 
@@ -267,14 +273,14 @@ impl Visit for Words<'_> {
 const PIECE: usize = 8192;
 
 /// Collects the values as words, and passes them on when the room is full.
-struct Pieces<'a, F> {
+struct WordBatches<'a, F> {
     room: &'a mut [[u8; 8]],
     /// The number of words in `room`.
     count: usize,
     take: F,
 }
 
-impl<F: FnMut(&[u8])> Pieces<'_, F> {
+impl<F: FnMut(&[u8])> WordBatches<'_, F> {
     fn pass_on(&mut self) {
         (self.take)(self.room[..self.count].as_flattened());
         self.count = 0;
@@ -289,8 +295,8 @@ impl<F: FnMut(&[u8])> Pieces<'_, F> {
     }
 }
 
-impl<F: FnMut(&[u8])> Visit for Pieces<'_, F> {
-    fn value(&mut self, _robot: Option<u32>, _field: Field, value: Value) {
+impl<F: FnMut(&[u8])> FrameVisitor for WordBatches<'_, F> {
+    fn value(&mut self, _robot: Option<u32>, _field: FrameField, value: Value) {
         self.word(value.bits());
     }
 
@@ -317,77 +323,4 @@ impl<F: FnMut(&[u8])> Visit for Pieces<'_, F> {
 }
 
 #[cfg(test)]
-mod tests {
-    #[test]
-    fn seconds_are_the_nearest_numbers() {
-        for (ticks, expected) in [(0, 0.0), (1, 0.05), (3, 0.15), (48, 2.4), (72_000, 3600.0)] {
-            assert_eq!(super::seconds(ticks), expected);
-        }
-        assert_ne!(48.0 * super::DT, 2.4, "the product is not");
-    }
-
-    use super::*;
-    use crate::run::fixture;
-
-    #[test]
-    fn the_encoding_is_the_documented_words() {
-        let state = RobotState {
-            id: 7,
-            configuration: [1.0, -0.0].into_iter().collect(),
-            extra: [f64::INFINITY].into_iter().collect(),
-            channels: [-128, 5],
-            target: Coordinates::new(),
-            manual: true,
-            in_contact: false,
-            contacts: 3,
-            flash: 4,
-            refusals: 6,
-        };
-        let frame = Frame {
-            tick: 9,
-            robots: vec![state],
-            scans: vec![RobotScan { robot: 7, ranges: [2.5].into() }],
-            obstacles: vec![],
-        };
-        let mut bytes = Vec::new();
-        frame.encode(&mut bytes);
-        let words: Vec<u64> = bytes.as_chunks::<8>().0.iter().map(|c| u64::from_le_bytes(*c)).collect();
-        let (one, minus_zero, infinity) = (0x3ff0_0000_0000_0000, 0x8000_0000_0000_0000, 0x7ff0_0000_0000_0000);
-        let expected = [9, 1, 7, 2, one, minus_zero, 1, infinity, 128_u64.wrapping_neg(), 5, 0, 1, 0, 3, 4, 6, 1, 7, 1];
-        assert_eq!(words[..19], expected);
-        assert_eq!(words[19..], [2.5_f64.to_bits()]);
-        assert_eq!(bytes.len(), 160, "whole words only");
-        assert_eq!(frame.encoded_length(), 160);
-    }
-
-    #[test]
-    fn the_encoding_in_pieces_is_the_encoding() {
-        let mut frame = fixture::frame(3);
-        let words = PIECE / 8;
-        for length in [0, 1, words - 40, words, words + 1, 3 * words + 7] {
-            frame.scans[0].ranges = (0..length).map(|k| k as f64).collect();
-            for changed in [0, 1, words / 3] {
-                let obstacle =
-                    |number| ObstacleState { world: 0, obstacle: number, present: true, pose: Pose2::IDENTITY };
-                frame.obstacles = (0..changed as u32).map(obstacle).collect();
-                let (mut whole, mut pieces, mut room) = (Vec::new(), Vec::new(), Vec::new());
-                frame.encode(&mut whole);
-                frame.encode_in_pieces(&mut room, |piece| {
-                    assert!(piece.len() <= PIECE);
-                    pieces.extend_from_slice(piece);
-                });
-                assert!(pieces == whole, "{length} ranges, {changed} obstacles");
-            }
-        }
-    }
-
-    #[test]
-    fn a_nan_is_found_wherever_it_hides() {
-        let mut frame = fixture::frame(3);
-        assert_eq!(frame.first_nan(), None);
-        frame.scans[0].ranges_mut()[1] = f64::NAN;
-        assert_eq!(frame.first_nan(), Some((0, "ranges[1]".into())));
-        frame.robots[1].extra.push(f64::NAN);
-        assert_eq!(frame.first_nan(), Some((1, "extra[0]".into())), "robots come before scans");
-    }
-}
+mod tests;

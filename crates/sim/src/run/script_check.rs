@@ -104,13 +104,13 @@ impl Script {
     /// [`ScriptError`] without file and line, naming the first change that does not fit.
     pub fn check_worlds(&self, worlds: &[World]) -> Result<(), ScriptError> {
         let mut added: BTreeSet<(&str, &str)> = BTreeSet::new();
-        let mut known: BTreeMap<&str, Names> = BTreeMap::new();
+        let mut known: BTreeMap<&str, KnownNames> = BTreeMap::new();
         for (i, WorldEvent { world, change, .. }) in self.changes.iter().enumerate() {
             let (world, name) = (world.as_str(), change.name());
             let names = match known.entry(world) {
                 Entry::Occupied(names) => names.into_mut(),
                 Entry::Vacant(place) => {
-                    let names = Names::of_world(worlds, world).map_err(|problem| problem.at("changes", i))?;
+                    let names = KnownNames::of_world(worlds, world).map_err(|problem| problem.at("changes", i))?;
                     place.insert(names)
                 }
             };
@@ -140,13 +140,13 @@ impl Script {
 }
 
 /// The names of a world.
-struct Names<'a> {
+struct KnownNames<'a> {
     all: BTreeSet<&'a str>,
     doors: BTreeSet<&'a str>,
     obstacles: BTreeSet<&'a str>,
 }
 
-impl<'a> Names<'a> {
+impl<'a> KnownNames<'a> {
     fn of_world(worlds: &'a [World], name: &str) -> Result<Self, ScriptProblem> {
         let mut named = worlds.iter().filter(|w| w.name == name);
         let world = named.next().ok_or_else(|| ScriptProblem::World(name.to_owned()))?;
@@ -158,7 +158,7 @@ impl<'a> Names<'a> {
         let others = world.places.iter().map(|p| &p.name).chain(world.marks.iter().map(|m| &m.name));
         let others = others.chain(world.robots.iter().map(|r| &r.name)).map(String::as_str);
         let all = others.chain(doors.iter().copied()).chain(obstacles.iter().copied()).collect();
-        Ok(Names { all, doors, obstacles })
+        Ok(KnownNames { all, doors, obstacles })
     }
 }
 

@@ -215,7 +215,7 @@ pub struct OwnState<R: SimulatedRobot> {
 /// A robot's tour, drawn from the seed.
 #[derive(Component, Clone, Debug)]
 #[component(immutable)]
-pub struct Route<R: SimulatedRobot>(pub R::Tour);
+pub struct DrawnTour<R: SimulatedRobot>(pub R::Tour);
 
 /// A robot's stream of actuation noise; tick t draws at index t.
 #[derive(Component, Clone, Debug)]

@@ -9,16 +9,16 @@ use motion_lab_core::collision::Collision;
 use motion_lab_core::geometry::Point2;
 
 /// Largest number of samples; beyond it every second one is dropped. Half an hour at 20 Hz is kept in full.
-const MOST_SAMPLES: usize = 36_000;
+const MAX_SAMPLES: usize = 36_000;
 
 /// Largest size of all samples together, bytes; beyond it they are thinned.
 const BUDGET: usize = 96_000_000;
 
 /// Largest number of marks; beyond it every second one is dropped.
-const MOST_MARKS: usize = 1 << 19;
+const MAX_MARKS: usize = 1 << 19;
 
 /// Largest number of robots that are measured after every tick. More are measured only where a sample is kept.
-const MOST_MEASURED: usize = 100;
+const MAX_MEASURED: usize = 100;
 
 /// How far apart the first samples of more robots lie, ticks: a second.
 const SECOND: u64 = 20;
@@ -148,7 +148,7 @@ impl History {
             return;
         }
         let states = &world.resource::<LatestFrame>().0.robots;
-        let are_many = states.len() > MOST_MEASURED;
+        let are_many = states.len() > MAX_MEASURED;
         if are_many && self.samples.is_empty() && self.every < SECOND {
             self.every = SECOND;
         }
@@ -182,8 +182,8 @@ impl History {
 
     /// Drops samples until the others are few and small enough.
     fn thin(&mut self) {
-        while self.samples.len() > 1 && (self.samples.len() > MOST_SAMPLES || self.bytes > self.budget) {
-            let is_by_size = self.samples.len() <= MOST_SAMPLES;
+        while self.samples.len() > 1 && (self.samples.len() > MAX_SAMPLES || self.bytes > self.budget) {
+            let is_by_size = self.samples.len() <= MAX_SAMPLES;
             // every keyframe's tick must have its sample, for the trails to go on from there: up to five seconds the
             // distance divides that of the first keyframes, and beyond it the larger keyframes are thinned before
             let times = if is_by_size && self.every < 5 * SECOND && self.every >= 4 { 5 } else { 2 };
@@ -201,7 +201,7 @@ impl History {
 
     /// Drops every second mark when there are too many, and never the last.
     fn thin_marks(&mut self) {
-        if self.marks.len() > MOST_MARKS {
+        if self.marks.len() > MAX_MARKS {
             let mut stays = self.marks.len().is_multiple_of(2);
             self.marks.retain(|_| {
                 stays = !stays;
@@ -226,7 +226,7 @@ fn measure(world: &World, robot: usize, trail: &mut Trail) {
 }
 
 /// Adds the state just recorded to the history, if the app keeps one.
-pub(super) fn note_where_kept(world: &mut World) {
+pub(super) fn note_if_history(world: &mut World) {
     if world.contains_resource::<History>() && !world.resource::<LatestFrame>().0.robots.is_empty() {
         world.resource_scope(|world, mut history: Mut<History>| history.note(world));
     }

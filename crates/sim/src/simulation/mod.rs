@@ -34,8 +34,8 @@ mod undo;
 pub use command::{RunCommand, WorldCommand};
 pub use command_error::{CommandError, CommandRefused};
 pub use components::{
-    Configuration, Contacts, Control, Cut, CutOf, Door, DriveMode, MountedOn, ObstacleOf, ObstacleShape, Obstacles,
-    OwnState, Placement, PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Route, Scan,
+    Configuration, Contacts, Control, Cut, CutOf, Door, DrawnTour, DriveMode, MountedOn, ObstacleOf, ObstacleShape,
+    Obstacles, OwnState, Placement, PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Scan,
     SceneRevision, SensorModel, SensorMount, SensorName, SensorNoise, Sensors, SimulatedWorld, Slip, StandingWorld,
     TickMotion, WorldScene,
 };
@@ -64,7 +64,7 @@ pub use sensors::view::{SensorView, sensors, sensors_of};
 pub use spawn::{RunConfig, is_under_way, recipe, start_recipe, start_run};
 pub use spawn_error::SpawnError;
 pub use state::{restore, snapshot};
-pub use tick::hold::{Advance, HOLD_CLEARANCE, LEAST_CLEARANCE, MARGIN, advance, margin_from};
+pub use tick::hold::{Advance, HOLD_CLEARANCE, MARGIN, MIN_CLEARANCE, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::refusals::{Refusals, RefusedEvent, RefusedInput};
 pub use tick::settle::FLASH_TICKS;

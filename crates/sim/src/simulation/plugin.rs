@@ -6,9 +6,9 @@ use bevy::prelude::*;
 use super::obstacles::change::RefusedChanges;
 use super::obstacles::roster::ObstacleRoster;
 use super::obstacles::watch::watch;
-use super::schedule::{CrowdSystems, Phase, simulation_schedule};
-use super::tick::crowds::Crowds;
-use super::tick::{crowds, input, sense};
+use super::schedule::{CrowdSystems, TickPhase, simulation_schedule};
+use super::tick::world_crowds::WorldCrowds;
+use super::tick::{input, sense, world_crowds};
 use super::{
     CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, Refusals, RobotKinds, RobotPlugin, RunCommand,
     SensorRefused, SensorRoster, SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, sensors,
@@ -31,11 +31,11 @@ impl Plugin for SimulationPlugin {
     fn build(&self, app: &mut App) {
         app.add_schedule(simulation_schedule())
             .init_resource::<RobotKinds>()
-            .init_resource::<Crowds>()
+            .init_resource::<WorldCrowds>()
             .init_resource::<PendingInput>()
             .init_resource::<Keyframes>()
             .init_resource::<LatestFrame>()
-            .init_resource::<state::Taken>()
+            .init_resource::<state::TakenStates>()
             .init_resource::<Undo>()
             .init_resource::<ObstacleRoster>()
             .init_resource::<RefusedChanges>()
@@ -52,11 +52,11 @@ impl Plugin for SimulationPlugin {
                 SimulationSchedule,
                 (
                     (input::advance_tick, input::apply_inputs).chain().in_set(SimulationSystems::Input),
-                    crowds::begin.in_set(Phase::Begin).in_set(CrowdSystems),
-                    crowds::index.in_set(Phase::Index).in_set(CrowdSystems),
-                    crowds::meet.in_set(Phase::Meet).in_set(CrowdSystems),
+                    world_crowds::begin.in_set(TickPhase::Begin).in_set(CrowdSystems),
+                    world_crowds::index.in_set(TickPhase::Index).in_set(CrowdSystems),
+                    world_crowds::meet.in_set(TickPhase::Meet).in_set(CrowdSystems),
                     sense::sense.in_set(SimulationSystems::Sense),
-                    state::record.in_set(Phase::Keep),
+                    state::record.in_set(TickPhase::Keep),
                 ),
             )
             .add_systems(RunFixedMainLoop, command::carry_out.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))

@@ -3,7 +3,7 @@
 use bevy::ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 use bevy::prelude::*;
 
-use super::tick::crowds::Crowds;
+use super::tick::world_crowds::WorldCrowds;
 
 /// One tick of the simulation, whoever runs it: the fixed loop of a window, the recorder, a replay, the step button, a
 /// seek.
@@ -44,7 +44,7 @@ pub(super) enum KindSystems {
 /// every motion is cut, those that meet are found, and only then do robots advance. Last come the robots' states in the
 /// frame.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Phase {
+pub(super) enum TickPhase {
     Begin,
     Plan,
     Index,
@@ -75,9 +75,12 @@ pub(super) fn simulation_schedule() -> Schedule {
         )
             .chain(),
     );
-    schedule.configure_sets((Phase::Begin, Phase::Plan, Phase::Index).chain().in_set(SimulationSystems::Step));
-    schedule.configure_sets((Phase::Cut, Phase::Meet, Phase::Settle).chain().in_set(SimulationSystems::Collide));
-    schedule.configure_sets(CrowdSystems.run_if(Crowds::are_there));
-    schedule.configure_sets((Phase::Encode, Phase::Keep).chain().in_set(SimulationSystems::Record));
+    schedule
+        .configure_sets((TickPhase::Begin, TickPhase::Plan, TickPhase::Index).chain().in_set(SimulationSystems::Step));
+    schedule.configure_sets(
+        (TickPhase::Cut, TickPhase::Meet, TickPhase::Settle).chain().in_set(SimulationSystems::Collide),
+    );
+    schedule.configure_sets(CrowdSystems.run_if(WorldCrowds::are_there));
+    schedule.configure_sets((TickPhase::Encode, TickPhase::Keep).chain().in_set(SimulationSystems::Record));
     schedule
 }

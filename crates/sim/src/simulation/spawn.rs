@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::obstacles::roster::{self, Ground, at_work};
+use super::obstacles::roster::{self, WorldObstacles, at_work};
 use super::robot::spawn::{SpawnRequest, routes};
-use super::tick::crowds::Crowds;
+use super::tick::world_crowds::WorldCrowds;
 use super::{
     History, Keyframes, LatestFrame, PendingInput, Refusals, RobotId, RobotKinds, Roster, SceneRevision,
     SimulatedWorld, SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
@@ -115,13 +115,13 @@ pub(super) fn start_run_in_order(world: &mut World, recipe: Recipe, order: &[usi
     let grounds = at_work(world, |world, _| {
         old.iter().flat_map(|old| &old.worlds).for_each(|&w| _ = world.despawn(w));
         let model = |world: &World, w| world.get::<SimulatedWorld>(w).map(|w| Arc::clone(&w.model));
-        let ground = |&w: &Entity| model(world, w).map(|model| Ground::spawn(world, w, model));
+        let ground = |&w: &Entity| model(world, w).map(|model| WorldObstacles::spawn(world, w, model));
         roster.worlds.iter().filter_map(ground).collect()
     });
     world.insert_resource(roster);
     roster::begin(world, grounds);
     roster::sync_added(world, &script.changes);
-    world.insert_resource(Crowds::new(config.worlds.iter().map(|w| w.robots.len())));
+    world.insert_resource(WorldCrowds::new(config.worlds.iter().map(|w| w.robots.len())));
     world.insert_resource(RunConfig(config));
     world.insert_resource(Transport::new(seed));
     world.insert_resource(PendingInput::new(script));

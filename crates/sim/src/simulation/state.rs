@@ -39,13 +39,13 @@ type Encoded<R> =
 
 /// The robots' states of the tick, as far as they are taken.
 #[derive(Resource, Default)]
-pub(super) struct Taken(usize);
+pub(super) struct TakenStates(usize);
 
 /// Writes the states of the robots of a kind into the frame, in the places of their ids. It runs for crowds; of few
 /// robots [`record`] takes the states itself.
 pub(crate) fn encode<R: SimulatedRobot>(
     mut frame: ResMut<LatestFrame>,
-    mut taken: ResMut<Taken>,
+    mut taken: ResMut<TakenStates>,
     robots: Query<Encoded<R>>,
 ) {
     for (&id, Configuration(q), own, mode, contacts) in &robots {
@@ -58,7 +58,7 @@ pub(crate) fn encode<R: SimulatedRobot>(
 
 /// Takes the frame of the tick, with the states that its robots and its sensors have written.
 pub(super) fn record(world: &mut World) {
-    let taken = std::mem::take(&mut world.resource_mut::<Taken>().0);
+    let taken = std::mem::take(&mut world.resource_mut::<TakenStates>().0);
     let mut frame = std::mem::take(&mut *world.resource_mut::<LatestFrame>()).0;
     let robots = world.get_resource::<Roster>().map_or(0, |roster| roster.robots().len());
     if taken != robots || frame.robots.len() != robots {
@@ -67,7 +67,7 @@ pub(super) fn record(world: &mut World) {
     snapshot_rest(world, &mut frame);
     world.resource_mut::<Keyframes>().keep(&frame);
     world.resource_mut::<LatestFrame>().0 = frame;
-    super::history::note_where_kept(world);
+    super::history::note_if_history(world);
 }
 
 /// Puts the simulation into the state of `frame`, overwriting components; nothing is spawned. The ticks after it repeat

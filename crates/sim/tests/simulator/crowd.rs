@@ -7,7 +7,7 @@ use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
 use motion_lab_sim::recording::{Recorder, Run};
 use motion_lab_sim::run::{Frame, RobotInput, Script};
-use motion_lab_sim::simulation::LEAST_CLEARANCE;
+use motion_lab_sim::simulation::MIN_CLEARANCE;
 use motion_lab_sim::tour::TourConfig;
 
 use super::{event, quantized, script};
@@ -79,12 +79,12 @@ fn nobody_drives_through_anybody() {
                 .collect();
             for i in 0..9 {
                 let end = RUSTY.footprint(&pose(frame, i));
-                assert!(scene.distance(&end) >= LEAST_CLEARANCE);
+                assert!(scene.distance(&end) >= MIN_CLEARANCE);
                 for j in 0..i {
                     for a in &arcs[i] {
                         for b in &arcs[j] {
                             let gap = (a.core()[0] - b.core()[0]).norm() - 2.0 * RUSTY.body_radius;
-                            assert!(gap >= LEAST_CLEARANCE, "seed {seed} tick {}: {i} and {j} at {gap}", frame.tick);
+                            assert!(gap >= MIN_CLEARANCE, "seed {seed} tick {}: {i} and {j} at {gap}", frame.tick);
                         }
                     }
                 }

@@ -5,7 +5,7 @@ use motion_lab_core::prelude::*;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::recording::{Recorder, Run, RunError};
 use motion_lab_sim::run::{Event, Frame, RobotInput};
-use motion_lab_sim::simulation::{FLASH_TICKS, LEAST_CLEARANCE};
+use motion_lab_sim::simulation::{FLASH_TICKS, MIN_CLEARANCE};
 use motion_lab_sim::tour::TourConfig;
 
 use super::crowd::arena;
@@ -201,7 +201,7 @@ fn held_robots_never_come_nearer_than_the_least_clearance_whatever_is_driven() {
                     puts && e.tick == tick && e.robot == v.name
                 };
                 let kept = std::mem::replace(&mut last[v.id as usize], clearance) - 1e-9;
-                let least = if kept < LEAST_CLEARANCE { kept } else { LEAST_CLEARANCE };
+                let least = if kept < MIN_CLEARANCE { kept } else { MIN_CLEARANCE };
                 let near = clearance > 0.0 && (clearance >= least || script.events.iter().any(puts));
                 assert!(near, "seed {seed}, tick {tick}: {clearance} m at {}", v.configuration_in_full);
             }

@@ -8,9 +8,9 @@ use motion_lab::manifest::Widget;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::capture::{CaptureError, Form};
+use motion_lab::capture::{CaptureError, CaptureForm};
 
-use crate::cli::support::choices::{Numbers, RobotsAndKinds, WorldNames, form, one_of};
+use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, form, one_of};
 use crate::cli::support::input::is_dash;
 use crate::cli::support::paper::{PaperArgs, not_written, write_picture};
 use crate::cli::support::simulate::not_shown;
@@ -46,8 +46,8 @@ pub struct Capture {
     #[arg(short, long, alias = "out", value_name = "FILE")]
     output: PathBuf,
     /// The form. [default: by the output's name; svg for `-`]
-    #[arg(long, value_parser = form(Form::ALL))]
-    format: Option<Form>,
+    #[arg(long, value_parser = form(CaptureForm::ALL))]
+    format: Option<CaptureForm>,
     #[command(flatten)]
     paper: PaperArgs,
     #[command(flatten)]
@@ -87,8 +87,8 @@ pub struct RunArgs {
 
 impl RunArgs {
     /// Whether a run is asked for, of a widget that need not show one.
-    fn asked(&self, form: Form) -> bool {
-        form == Form::Gif || self.run.is_some() || self.seed.is_some() || self.tick.is_some()
+    fn asked(&self, form: CaptureForm) -> bool {
+        form == CaptureForm::Gif || self.run.is_some() || self.seed.is_some() || self.tick.is_some()
     }
 }
 
@@ -109,10 +109,10 @@ pub struct SceneArgs {
     /// Anatomy and cspace: the configuration, numbers joined by commas. [default: where the robot starts; choset: pi/4,
     /// pi/2]
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
-    q: Option<Numbers>,
+    q: Option<NumberList>,
     /// Anatomy and cspace: the step to the second configuration.
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
-    step: Option<Numbers>,
+    step: Option<NumberList>,
     /// Anatomy: draw the annulus of points that an arm's tip can reach.
     #[arg(long)]
     annulus: bool,
@@ -128,7 +128,7 @@ pub struct SceneArgs {
     /// Atlas: put the world's first robot there, numbers joined by commas; where it cannot be, what it would overlap is
     /// shown, and the nearest place that is free.
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
-    teleport: Option<Numbers>,
+    teleport: Option<NumberList>,
 }
 
 /// The widgets that can be captured without a window.
@@ -140,7 +140,7 @@ impl Capture {
         let paper = self.paper.paper();
         let form = self.form()?;
         let of_run = self.widget == Widget::Dashboard || self.run.asked(form);
-        if self.widget == Widget::Anatomy && form == Form::Gif {
+        if self.widget == Widget::Anatomy && form == CaptureForm::Gif {
             return Err(self.failure(CaptureError::Frozen));
         }
         if let Some((option, place)) = self.astray(form, of_run) {
@@ -163,8 +163,8 @@ impl Capture {
     }
 
     /// The form: what was said, else what the output's name tells.
-    fn form(&self) -> Result<Form, Failure> {
-        let named = || if is_dash(&self.output) { Some(Form::Svg) } else { Form::of(&self.output) };
+    fn form(&self) -> Result<CaptureForm, Failure> {
+        let named = || if is_dash(&self.output) { Some(CaptureForm::Svg) } else { CaptureForm::of(&self.output) };
         self.format.or_else(named).ok_or_else(|| {
             let reason = format!("{}: its name does not tell the form", self.output.display());
             Failure::usage(reason, "Let it end in .svg, .png or .gif, or say --format.")
@@ -183,7 +183,7 @@ impl Capture {
     }
 
     /// The first option given for which the widget or the file format has no use, and what it goes with.
-    fn astray(&self, form: Form, of_run: bool) -> Option<(&'static str, &'static str)> {
+    fn astray(&self, form: CaptureForm, of_run: bool) -> Option<(&'static str, &'static str)> {
         use Widget::{Anatomy, Atlas, Cspace, Dashboard};
         let (run, scene) = (&self.run, &self.scene);
         let runs: &[Widget] = &[Dashboard, Atlas, Cspace];
@@ -222,7 +222,7 @@ impl Capture {
         stray.map(|(option, .., place)| (option, place)).or(of_still).or_else(|| {
             let span = run.from.or(run.to).or(run.every).is_some();
             match form {
-                Form::Gif => run.tick.map(|_| ("--tick", "SVG and PNG")),
+                CaptureForm::Gif => run.tick.map(|_| ("--tick", "SVG and PNG")),
                 _ => span.then_some(("--from, --to and --every", "GIF")),
             }
         })

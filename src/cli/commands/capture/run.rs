@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use motion_lab::capture::{Form, Paper, Span, Subject, at_tick_with_robots, film, write};
+use motion_lab::capture::{CaptureForm, CaptureSpan, Paper, Subject, at_tick_with_robots, film, write};
 use motion_lab::random::Seed;
 use motion_lab::recording::Run;
 use motion_lab::run::{Log, Script};
@@ -12,28 +12,28 @@ use super::{Capture, RunArgs};
 use crate::cli::commands::query::Chosen;
 use crate::cli::support::choices::KINDS;
 use crate::cli::support::log_source::{LogSource, read_full_log};
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, say};
 use motion_lab::manifest::Widget;
 
 impl Capture {
     /// Writes what the widget shows of the run.
-    pub(crate) fn of_run(&self, form: Form, paper: &Paper, output: &Path) -> Result<(), Failure> {
+    pub(crate) fn of_run(&self, form: CaptureForm, paper: &Paper, output: &Path) -> Result<(), Failure> {
         let log = log(&self.run)?;
         let subject = self.subject(&log)?;
         let last = log.ticks();
         let RunArgs { tick, from, to, every, .. } = self.run;
-        let written = if form == Form::Gif {
-            let span = Span { from: from.unwrap_or(0), to: to.unwrap_or(last), every: every.unwrap_or(4) };
+        let written = if form == CaptureForm::Gif {
+            let span = CaptureSpan { from: from.unwrap_or(0), to: to.unwrap_or(last), every: every.unwrap_or(4) };
             let pictures = (span.to.saturating_sub(span.from)) / span.every + 1;
-            let progress = Progress::of(pictures, "pictures");
+            let progress = CommandProgress::of(pictures, "pictures");
             film(&log, &subject, span, paper, output, |done, _| {
                 progress.at(done);
                 true
             })
         } else {
-            let progress = Progress::of(last, "ticks");
+            let progress = CommandProgress::of(last, "ticks");
             let shown = |tick| progress.at(tick);
             at_tick_with_robots(&log, &subject, tick.unwrap_or(last), paper.width_px(), |_| {}, shown)
                 .and_then(|captured| write(&captured, paper, form, output))

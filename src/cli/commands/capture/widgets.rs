@@ -1,7 +1,7 @@
 //! Figures of the widgets that need no run: anatomy, atlas, configuration space.
 
 use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
-use motion_lab::atlas::{Atlas, GridLayer, Refusal};
+use motion_lab::atlas::{Atlas, GridLayer, TeleportRefusal};
 use motion_lab::capture::{self, AtlasSheet, Captured, Paper};
 use motion_lab::cspace::{CellMap, Slice};
 use motion_lab::picture::{Item, readout};
@@ -11,8 +11,8 @@ use motion_lab::worlds::World;
 use super::SceneArgs;
 use crate::cli::Failure;
 use crate::cli::commands::query::Chosen;
-use crate::cli::support::choices::{CHOSET, Numbers};
-use crate::cli::support::progress::Progress;
+use crate::cli::support::choices::{CHOSET, NumberList};
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::world_source::find_world;
 
 /// The query anatomy: the tab with a close view, or all four.
@@ -31,7 +31,7 @@ pub fn cspace(args: &SceneArgs) -> Result<Captured, Failure> {
 
 /// Judges up to `budget` cells, and shows how far it has come.
 fn judge(map: &mut CellMap, budget: u32) {
-    let progress = Progress::of(0, "cells, as far as is known");
+    let progress = CommandProgress::of(0, "cells, as far as is known");
     let mut left = budget;
     while left > 0 && map.refine(left.min(PIECE)) {
         left -= left.min(PIECE);
@@ -61,7 +61,7 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
     let mut notes = Vec::new();
     for atlas in &mut atlases {
         notes.push(match &args.teleport {
-            Some(Numbers(to)) => teleport(atlas, to)?,
+            Some(NumberList(to)) => teleport(atlas, to)?,
             None => (Vec::new(), Vec::new()),
         });
     }
@@ -81,7 +81,7 @@ fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), F
     Ok(match atlas.teleport(0, wanted) {
         Some(Err(refusal)) => {
             let mut said = vec![refusal.to_string()];
-            if let Refusal::Overlap { nearest: Some(offer), .. } = &refusal {
+            if let TeleportRefusal::Overlap { nearest: Some(offer), .. } = &refusal {
                 said.push(format!("nearest free: {}", readout(&offer.q.to_string())));
                 said.push(format!("{:.4} away, and nothing nearer than {:.4} is free", offer.distance, offer.proven));
             }

@@ -11,12 +11,12 @@ use motion_lab::run::Log;
 
 use crate::cli::support::input::{is_dash, read_bytes};
 use crate::cli::support::log_source::{LogSource, MAX_LOG, read_full_log, say_damage};
-use crate::cli::support::output::PendingFile;
-use crate::cli::support::progress::{Counted, Progress};
+use crate::cli::support::output::ReportedFile;
+use crate::cli::support::progress::{CommandProgress, CountedWriter};
 use crate::cli::support::simulate::not_shown;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome};
-use sink::Sink;
+use sink::ExportSink;
 use stills::StillArgs;
 
 /// Write a log in a form that other programs read.
@@ -36,7 +36,7 @@ pub struct Export {
     file: PathBuf,
     /// The form. [default: by the output's name: .jsonl, .csv, .svg, .png, .gif; .mcap is foxglove]
     #[arg(long)]
-    format: Option<Format>,
+    format: Option<ExportFormat>,
     /// Write to this file; `-`, or none, is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -48,7 +48,7 @@ pub struct Export {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum ExportFormat {
     /// A line of JSON for each tick, tick 0 first, with all that a frame holds.
     Jsonl,
     /// A row for each tick and robot.
@@ -66,16 +66,16 @@ enum Format {
     Rerun,
 }
 
-impl Format {
+impl ExportFormat {
     /// The form that a file's name tells.
-    fn by_name(path: &Path) -> Option<Format> {
+    fn by_name(path: &Path) -> Option<ExportFormat> {
         Some(match path.extension()?.to_str()? {
-            "jsonl" => Format::Jsonl,
-            "csv" => Format::Csv,
-            "svg" => Format::Svg,
-            "png" => Format::Png,
-            "gif" => Format::Gif,
-            "mcap" => Format::Foxglove,
+            "jsonl" => ExportFormat::Jsonl,
+            "csv" => ExportFormat::Csv,
+            "svg" => ExportFormat::Svg,
+            "png" => ExportFormat::Png,
+            "gif" => ExportFormat::Gif,
+            "mcap" => ExportFormat::Foxglove,
             _ => return None,
         })
     }
@@ -85,7 +85,7 @@ impl Export {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let output = self.output.as_deref().filter(|path| !is_dash(path));
-        let Some(format) = self.format.or_else(|| Format::by_name(output?)) else {
+        let Some(format) = self.format.or_else(|| ExportFormat::by_name(output?)) else {
             return Err(match output {
                 Some(path) => Failure::usage(
                     format!("{}: its name does not tell the form", path.display()),
@@ -94,13 +94,13 @@ impl Export {
                 None => Failure::usage("no form is named", "Name a file with -o FILE, or say the form with --format."),
             });
         };
-        if self.ranges && format != Format::Csv {
+        if self.ranges && format != ExportFormat::Csv {
             return Err(Failure::usage(
                 "--ranges is only valid with --format csv",
                 "Leave it out: jsonl, foxglove and rerun always hold them.",
             ));
         }
-        if matches!(format, Format::Foxglove | Format::Rerun) && output.is_none() {
+        if matches!(format, ExportFormat::Foxglove | ExportFormat::Rerun) && output.is_none() {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
         let LogSource { log, damage, .. } = read_full_log(&self.file)?;
@@ -108,24 +108,25 @@ impl Export {
         let (file, log) = (&self.file, &log);
         let target = Target::of(output.unwrap_or(Path::new("-")))?;
         match (format, output) {
-            (Format::Foxglove | Format::Rerun, _) => viewer(format, file, log, target.path())?,
-            (Format::Png, _) => stills::png(&self.stills, file, log, target.path())?,
-            (Format::Gif, _) => stills::gif(&self.stills, file, log, target.path())?,
+            (ExportFormat::Foxglove | ExportFormat::Rerun, _) => viewer(format, file, log, target.path())?,
+            (ExportFormat::Png, _) => stills::png(&self.stills, file, log, target.path())?,
+            (ExportFormat::Gif, _) => stills::gif(&self.stills, file, log, target.path())?,
             (format, output) => {
                 let is_terminal = data.is_terminal();
-                let mut sink = Sink::new(output, data)?;
+                let mut sink = ExportSink::new(output, data)?;
                 // a terminal that shows the lines needs no bar among them
                 let is_shown = output.is_none() && is_terminal;
-                let progress = |lines| if is_shown { Progress::none() } else { Progress::of(lines, "lines") };
+                let progress =
+                    |lines| if is_shown { CommandProgress::none() } else { CommandProgress::of(lines, "lines") };
                 let ticks = log.ticks() + 1;
                 match format {
-                    Format::Jsonl => {
+                    ExportFormat::Jsonl => {
                         let progress = progress(ticks);
-                        sink.take(|out| write_jsonl(log, Counted(out, &progress)))?;
+                        sink.take(|out| write_jsonl(log, CountedWriter(out, &progress)))?;
                     }
-                    Format::Csv => {
+                    ExportFormat::Csv => {
                         let progress = progress(ticks * log.recipe.config.robot_names().count() as u64);
-                        sink.take(|out| write_csv(log, self.ranges, Counted(out, &progress)))?;
+                        sink.take(|out| write_csv(log, self.ranges, CountedWriter(out, &progress)))?;
                     }
                     _ => {
                         let tick = self.stills.tick.unwrap_or(log.ticks());
@@ -135,7 +136,7 @@ impl Export {
                 sink.finish()?;
             }
         }
-        if output.is_some() || matches!(format, Format::Png | Format::Gif) {
+        if output.is_some() || matches!(format, ExportFormat::Png | ExportFormat::Gif) {
             target.finish(data)?;
         }
         Ok(if damage.is_some() { Outcome::Recovered } else { Outcome::Done })
@@ -143,12 +144,12 @@ impl Export {
 }
 
 /// Writes the log that was read from `file` for a viewer.
-fn viewer(format: Format, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+fn viewer(format: ExportFormat, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let bytes = read_bytes(file, MAX_LOG)?;
-    let mut pending = PendingFile::create(output)?;
-    let progress = Progress::of(2 * (log.ticks() + 1), "frames, each drawn and written");
+    let mut pending = ReportedFile::create(output)?;
+    let progress = CommandProgress::of(2 * (log.ticks() + 1), "frames, each drawn and written");
     let written = match format {
-        Format::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),
+        ExportFormat::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),
         _ => write_foxglove_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),
     };
     written.map_err(|error| match error {

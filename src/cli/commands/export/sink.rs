@@ -5,23 +5,23 @@ use std::path::{Path, PathBuf};
 
 use motion_lab::export::ExportError;
 
-use crate::cli::support::output::PendingFile;
+use crate::cli::support::output::ReportedFile;
 use crate::cli::{Data, Failure};
 
 /// A file that is being written, or standard output.
-pub enum Sink<'a> {
+pub enum ExportSink<'a> {
     /// A file under this name.
-    File(PathBuf, PendingFile),
+    File(PathBuf, ReportedFile),
     /// Standard output.
     Data(&'a mut Data),
 }
 
-impl<'a> Sink<'a> {
+impl<'a> ExportSink<'a> {
     /// The file at `output`; standard output when there is none.
     pub fn new(output: Option<&Path>, data: &'a mut Data) -> Result<Self, Failure> {
         Ok(match output {
-            Some(path) => Sink::File(path.to_owned(), PendingFile::create(path)?),
-            None => Sink::Data(data),
+            Some(path) => ExportSink::File(path.to_owned(), ReportedFile::create(path)?),
+            None => ExportSink::Data(data),
         })
     }
 
@@ -34,8 +34,8 @@ impl<'a> Sink<'a> {
     pub fn take(&mut self, write: impl FnOnce(&mut Self) -> Result<(), ExportError>) -> Result<(), Failure> {
         match (write(self), self) {
             (Ok(()), _) => Ok(()),
-            (Err(ExportError::Write(error)), Sink::File(path, _)) => Err(Failure::output(path, &error)),
-            (Err(ExportError::Write(error)), Sink::Data(data)) => data.after(Err(error)),
+            (Err(ExportError::Write(error)), ExportSink::File(path, _)) => Err(Failure::output(path, &error)),
+            (Err(ExportError::Write(error)), ExportSink::Data(data)) => data.after(Err(error)),
             (Err(error), _) => Err(Failure::internal(error)),
         }
     }
@@ -43,24 +43,24 @@ impl<'a> Sink<'a> {
     /// Puts a file in its place.
     pub fn finish(self) -> Result<(), Failure> {
         match self {
-            Sink::File(_, file) => file.commit(),
-            Sink::Data(_) => Ok(()),
+            ExportSink::File(_, file) => file.commit(),
+            ExportSink::Data(_) => Ok(()),
         }
     }
 }
 
-impl Write for Sink<'_> {
+impl Write for ExportSink<'_> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
-            Sink::File(_, file) => file.write(bytes),
-            Sink::Data(data) => data.write(bytes),
+            ExportSink::File(_, file) => file.write(bytes),
+            ExportSink::Data(data) => data.write(bytes),
         }
     }
 
     fn flush(&mut self) -> io::Result<()> {
         match self {
-            Sink::File(_, file) => file.flush(),
-            Sink::Data(data) => Write::flush(&mut **data),
+            ExportSink::File(_, file) => file.flush(),
+            ExportSink::Data(data) => Write::flush(&mut **data),
         }
     }
 }

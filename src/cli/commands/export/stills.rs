@@ -7,8 +7,8 @@ use clap::Args;
 use crate::cli::Failure;
 use crate::cli::support::choices;
 use crate::cli::support::log_source::digest_of;
-use crate::cli::support::output::PendingFile;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::output::ReportedFile;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::show;
 use motion_lab::capture::{RunFigure, TICK_HUNDREDTHS, with_names};
 use motion_lab::picture::{Role, Sheet, Theme};
@@ -52,7 +52,7 @@ pub fn svg_at(args: &StillArgs, file: &Path, log: &Log, tick: u64) -> Result<Str
 /// The SVG of the run after `tick`, on a sheet of this width.
 fn sheet_at(args: &StillArgs, width: u32, file: &Path, log: &Log, tick: u64) -> Result<String, Failure> {
     let mut drawn = None;
-    let progress = Progress::of(tick, "ticks");
+    let progress = CommandProgress::of(tick, "ticks");
     each_svg(
         (args, width),
         file,
@@ -73,7 +73,7 @@ fn sheet_at(args: &StillArgs, width: u32, file: &Path, log: &Log, tick: u64) -> 
 pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
     let tick = args.tick.unwrap_or(log.ticks());
     let image = paint(&args.raster(), &sheet_at(args, SHEET, file, log, tick)?, None)?;
-    let mut pending = PendingFile::create(output)?;
+    let mut pending = ReportedFile::create(output)?;
     let notes = [
         ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION"))),
         ("Seed", log.recipe.seed.0.to_string()),
@@ -98,10 +98,10 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
     let raster = args.raster();
     let comment = format!("motion-lab, seed {}, digest {}, ticks {from} to {to}", log.recipe.seed.0, digest_of(log)?);
     let hundredths = (TICK_HUNDREDTHS * args.every) as u16;
-    let mut pending = Some(PendingFile::create(output)?);
-    let mut writer: Option<(GifWriter<PendingFile>, u32)> = None;
+    let mut pending = Some(ReportedFile::create(output)?);
+    let mut writer: Option<(GifWriter<ReportedFile>, u32)> = None;
     let wanted = |tick: u64| (from..=to).contains(&tick) && (tick - from).is_multiple_of(args.every);
-    let progress = Progress::of((to - from) / args.every + 1, "pictures");
+    let progress = CommandProgress::of((to - from) / args.every + 1, "pictures");
     each_svg((args, SHEET), file, log, wanted, |svg| {
         progress.step();
         let image = paint(&raster, &svg, writer.as_ref().map(|(_, height)| *height))?;

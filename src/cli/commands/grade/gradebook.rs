@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::Serialize;
 
-use super::graded::{Graded, Part, Tried, in_words, rounded};
+use super::graded::{Graded, GradedCriterion, Tried, in_words, rounded};
 
 /// The first row of the table.
 pub const HEAD: &str = "submission,passed,points,max_points,seeds_passed,seeds,seed,verdict,tick,contacts,reversals,metres,radians,refused";
@@ -68,7 +68,7 @@ impl Results {
         let Graded { attempts, seeds, refused, .. } = graded;
         let lines: Vec<String> = attempts.iter().map(in_words).collect();
         let verdict = if graded.passed { "It passes at every seed." } else { "It does not pass." };
-        let test = |criterion: &Part| Test {
+        let test = |criterion: &GradedCriterion| Test {
             name: match criterion.name {
                 "goal" => "reaches the goal".into(),
                 "all" => "passes at every seed".into(),

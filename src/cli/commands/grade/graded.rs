@@ -16,7 +16,7 @@ pub struct Graded {
     /// The points that could be earned.
     pub max_points: JsonNumber,
     /// The criteria that are worth points.
-    pub criteria: Vec<Part>,
+    pub criteria: Vec<GradedCriterion>,
     /// The number of the assignment's seeds.
     pub seeds: usize,
     /// The tick of the first forged frame.
@@ -28,7 +28,7 @@ pub struct Graded {
 
 /// A criterion as JSON.
 #[derive(Serialize)]
-pub struct Part {
+pub struct GradedCriterion {
     pub name: &'static str,
     pub points: JsonNumber,
     pub max_points: JsonNumber,
@@ -67,7 +67,7 @@ impl Graded {
             metres: attempt.distance.map(|d| JsonNumber(d.metres)),
             radians: attempt.distance.map(|d| JsonNumber(d.radians)),
         };
-        let part = |criterion: &Criterion| Part {
+        let part = |criterion: &Criterion| GradedCriterion {
             name: criterion.name,
             points: JsonNumber(criterion.points),
             max_points: JsonNumber(criterion.of),
@@ -94,8 +94,12 @@ impl Graded {
     pub fn refused(submission: String, assignment: &Assignment, reason: String) -> Self {
         let none = assignment.score(&[]);
         let criteria = none.criteria.iter();
-        let criteria =
-            criteria.map(|c| Part { name: c.name, points: JsonNumber(0.0), max_points: JsonNumber(c.of), met: 0 });
+        let criteria = criteria.map(|c| GradedCriterion {
+            name: c.name,
+            points: JsonNumber(0.0),
+            max_points: JsonNumber(c.of),
+            met: 0,
+        });
         Graded {
             submission,
             passed: false,
@@ -129,7 +133,8 @@ impl Graded {
             ))?;
         }
         if self.criteria.iter().any(|c| c.name != "all") {
-            let part = |c: &Part| format!("{} {} of {}", c.name, rounded(c.points.0), rounded(c.max_points.0));
+            let part =
+                |c: &GradedCriterion| format!("{} {} of {}", c.name, rounded(c.points.0), rounded(c.max_points.0));
             let parts: Vec<String> = self.criteria.iter().map(part).collect();
             let (points, of) = (rounded(self.points.0), rounded(self.max_points.0));
             data.line(format!("{name:width$}  {:>6}  {points} of {of} points: {}", "", parts.join(", ")))?;

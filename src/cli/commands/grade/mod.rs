@@ -15,7 +15,7 @@ use motion_lab::simulation::SpawnError;
 
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
 use crate::cli::support::log_source::MAX_LOG;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::find_world_beside;
 use crate::cli::{Data, Failure, Outcome, say};
@@ -61,7 +61,7 @@ pub struct GradeArgs {
     submissions: Vec<PathBuf>,
     /// How the grades are written. [default: table]
     #[arg(long, value_enum, value_name = "FORM", conflicts_with_all = ["json", "csv"])]
-    format: Option<Form>,
+    format: Option<ReportForm>,
     /// One line of JSON for each submission; the same as --format json.
     #[arg(long, conflicts_with = "csv")]
     json: bool,
@@ -71,7 +71,7 @@ pub struct GradeArgs {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Form {
+enum ReportForm {
     /// A line for people for each seed.
     Table,
     /// A line of JSON for each submission.
@@ -83,12 +83,12 @@ enum Form {
 }
 
 impl GradeArgs {
-    fn form(&self) -> Form {
+    fn form(&self) -> ReportForm {
         match self.format {
             Some(form) => form,
-            None if self.json => Form::Json,
-            None if self.csv => Form::Csv,
-            None => Form::Table,
+            None if self.json => ReportForm::Json,
+            None if self.csv => ReportForm::Csv,
+            None => ReportForm::Table,
         }
     }
 
@@ -97,7 +97,7 @@ impl GradeArgs {
         let form = self.form();
         let assignment = read_assignment(&self.assignment)?;
         let files = submissions::find(&self.submissions, &self.assignment)?;
-        if form == Form::Gradescope && files.len() != 1 {
+        if form == ReportForm::Gradescope && files.len() != 1 {
             return Err(Failure::usage(
                 format!("{} submissions: Gradescope's results.json is of one", files.len()),
                 "Name one submission, or use --csv for many.",
@@ -107,12 +107,12 @@ impl GradeArgs {
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max("submission".len());
         let (mut passed, mut is_missing) = (0, false);
         match form {
-            Form::Table => data.line(Graded::head(width))?,
-            Form::Csv => data.data_line(gradebook::HEAD)?,
-            Form::Json | Form::Gradescope => {}
+            ReportForm::Table => data.line(Graded::head(width))?,
+            ReportForm::Csv => data.data_line(gradebook::HEAD)?,
+            ReportForm::Json | ReportForm::Gradescope => {}
         }
         let (ticks, seeds) = (assignment.limits().ticks, assignment.seeds().len() as u64);
-        let progress = Progress::of(names.len() as u64 * seeds * ticks, "ticks");
+        let progress = CommandProgress::of(names.len() as u64 * seeds * ticks, "ticks");
         for ((path, name), number) in files.iter().zip(&names).zip(0_u64..) {
             let before = number * seeds * ticks;
             let graded = match read_submission(path) {
@@ -137,16 +137,16 @@ impl GradeArgs {
             };
             passed += usize::from(graded.passed);
             match form {
-                Form::Table => graded.print(width, data)?,
-                Form::Json => data.json(&graded)?,
-                Form::Csv => data.data_line(gradebook::row(&graded))?,
-                Form::Gradescope => data.json(&Results::new(&graded))?,
+                ReportForm::Table => graded.print(width, data)?,
+                ReportForm::Json => data.json(&graded)?,
+                ReportForm::Csv => data.data_line(gradebook::row(&graded))?,
+                ReportForm::Gradescope => data.json(&Results::new(&graded))?,
             }
             data.flush()?;
             progress.at(before + seeds * ticks);
         }
         drop(progress);
-        if form == Form::Table {
+        if form == ReportForm::Table {
             data.line(format!("{passed} of {} pass", names.len()))?;
         }
         Ok(match (passed == names.len(), is_missing) {

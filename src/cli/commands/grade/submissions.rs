@@ -10,7 +10,7 @@ use crate::cli::support::input::unreadable;
 const DEEPEST: usize = 8;
 
 /// Largest number of files in the folders and patterns of one command.
-const MOST: usize = 100_000;
+const MAX_SUBMISSIONS: usize = 100_000;
 
 /// The files that `names` name, in their order. A folder stands for the scripts, logs and tables in it and in its
 /// folders, by name, but for the file `assignment`. A pattern with `*` or `?` that is no file's name stands for the
@@ -65,8 +65,8 @@ fn walk(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) -> Result<(), Fai
 }
 
 fn push(path: PathBuf, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    if found.len() == MOST {
-        return Err(Failure::input(format!("more than {MOST} submissions"), "Grade them in several parts."));
+    if found.len() == MAX_SUBMISSIONS {
+        return Err(Failure::input(format!("more than {MAX_SUBMISSIONS} submissions"), "Grade them in several parts."));
     }
     found.push(path);
     Ok(())

@@ -1,9 +1,9 @@
-//! `Answer`, what came of planning.
+//! `PlanAnswer`, what came of planning.
 
 use motion_lab::capture::{proven, unit};
 use motion_lab::export::JsonNumber;
 use motion_lab::planning::{Effort, NoPath};
-use motion_lab::plans::{Attempt, Counts, PathLengths, PlannerName, Task};
+use motion_lab::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
 
 use super::next;
@@ -12,7 +12,7 @@ use crate::cli::{Data, Failure};
 
 /// What came of planning.
 #[derive(Clone, Debug, Serialize)]
-pub struct Answer {
+pub struct PlanAnswer {
     solved: bool,
     planner: String,
     robot: String,
@@ -48,9 +48,9 @@ pub struct Answer {
     unit: &'static str,
 }
 
-impl Answer {
+impl PlanAnswer {
     fn new(task: &Task, planner: PlannerName, seed: u64) -> Self {
-        Answer {
+        PlanAnswer {
             solved: false,
             planner: planner.id().to_owned(),
             robot: task.name.clone(),
@@ -73,18 +73,18 @@ impl Answer {
 
     /// There is no path.
     pub fn of_none(task: &Task, planner: PlannerName, seed: u64, reason: &NoPath) -> Self {
-        Answer { reason: Some(reason.to_string()), next: next(reason), ..Self::new(task, planner, seed) }
+        PlanAnswer { reason: Some(reason.to_string()), next: next(reason), ..Self::new(task, planner, seed) }
     }
 
     /// The same answer with what the planner has done.
     pub fn after(self, effort: Effort) -> Self {
-        Answer { effort: Some(effort.into()), ..self }
+        PlanAnswer { effort: Some(effort.into()), ..self }
     }
 
     /// There is a path.
-    pub fn of_path(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn Attempt, seconds: f64) -> Self {
+    pub fn of_path(task: &Task, planner: PlannerName, seed: u64, attempt: &dyn PlanAttempt, seconds: f64) -> Self {
         let PathLengths { length, clearance } = attempt.lengths();
-        Answer {
+        PlanAnswer {
             solved: true,
             effort: Some(attempt.effort().into()),
             seconds: Some(seconds),

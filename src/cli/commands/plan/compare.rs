@@ -11,10 +11,10 @@ use motion_lab::random::Seed;
 use serde::Serialize;
 
 use super::PlanArgs;
-use super::answer::Answer;
+use super::answer::PlanAnswer;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::output::write_file;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -33,7 +33,7 @@ struct Row {
 
 /// What came of one planner at all seeds: medians over the attempts that have a path.
 #[derive(Debug, Serialize)]
-struct Line {
+struct PlannerMedians {
     planner: String,
     solved: usize,
     attempts: usize,
@@ -51,7 +51,7 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
     let is_first = |(i, planner): &(usize, &PlannerName)| !args.compare[..*i].contains(planner);
     let planners: Vec<_> = args.compare.iter().enumerate().filter(is_first).map(|(_, planner)| *planner).collect();
     let count = (seeds.end - seeds.first).saturating_mul(planners.len() as u64);
-    let progress = Progress::of(count, "attempts");
+    let progress = CommandProgress::of(count, "attempts");
     let mut rows = Vec::new();
     for &planner in &planners {
         for seed in seeds.first..seeds.end {
@@ -61,7 +61,7 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
                 Err(reason) => {
                     drop(progress);
                     if args.json {
-                        data.json(&Answer::of_none(task, planner, seed, &reason))?;
+                        data.json(&PlanAnswer::of_none(task, planner, seed, &reason))?;
                         return Ok(Outcome::NoPath);
                     }
                     say(format!("{}\n{}", super::in_words(&reason.to_string()), super::next(&reason)));
@@ -72,7 +72,7 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
         }
     }
     drop(progress);
-    let lines: Vec<Line> = planners.iter().map(|planner| line(*planner, &rows)).collect();
+    let lines: Vec<PlannerMedians> = planners.iter().map(|planner| line(*planner, &rows)).collect();
     if args.json {
         data.json(&lines)?;
     } else {
@@ -108,13 +108,13 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
     (n > 0).then(|| 0.5 * (numbers[(n - 1) / 2] + numbers[n / 2]))
 }
 
-fn line(planner: PlannerName, rows: &[Row]) -> Line {
+fn line(planner: PlannerName, rows: &[Row]) -> PlannerMedians {
     let own: Vec<&Row> = rows.iter().filter(|row| row.planner == planner).collect();
     let solved: Vec<(&Row, PathLengths)> =
         own.iter().filter_map(|row| Some((*row, *row.path.as_ref().ok()?))).collect();
     let of =
         |number: fn(&Row, PathLengths) -> f64| median(solved.iter().map(|(row, path)| number(row, *path)).collect());
-    Line {
+    PlannerMedians {
         planner: planner.id().to_owned(),
         solved: solved.len(),
         attempts: own.len(),
@@ -125,7 +125,7 @@ fn line(planner: PlannerName, rows: &[Row]) -> Line {
     }
 }
 
-fn print(lines: &[Line], unit: &str, data: &mut Data) -> Result<(), Failure> {
+fn print(lines: &[PlannerMedians], unit: &str, data: &mut Data) -> Result<(), Failure> {
     let width = lines.iter().map(|line| line.planner.len()).max().unwrap_or(0).max(7);
     let length = format!("length {unit}");
     data.line(format!(

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use motion_lab::capture::{Captured, Form, Found, Paper, PlanSheet, plan};
+use motion_lab::capture::{CaptureForm, Captured, Paper, PlanOutcome, PlanSheet, plan};
 use motion_lab::cspace::CellMap;
-use motion_lab::plans::{Attempt, PlannerName, Task};
+use motion_lab::plans::{PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
 use crate::cli::Failure;
@@ -16,13 +16,13 @@ pub fn write(
     task: &Task,
     planner: PlannerName,
     seed: u64,
-    attempt: &dyn Attempt,
+    attempt: &dyn PlanAttempt,
     paper: &Paper,
     output: &Path,
 ) -> Result<(), Failure> {
     let target = Target::file(output)?;
-    let form = if Form::of(output) == Some(Form::Png) { Form::Png } else { Form::Svg };
-    let captured = captured(task, planner, seed, attempt, Found::None, None);
+    let form = if CaptureForm::of(output) == Some(CaptureForm::Png) { CaptureForm::Png } else { CaptureForm::Svg };
+    let captured = captured(task, planner, seed, attempt, PlanOutcome::None, None);
     write_picture(&captured, paper, form, target.path())?;
     target.wrote();
     Ok(())
@@ -34,11 +34,11 @@ pub fn captured(
     task: &Task,
     planner: PlannerName,
     seed: u64,
-    attempt: &dyn Attempt,
-    without: Found<'_>,
+    attempt: &dyn PlanAttempt,
+    without: PlanOutcome<'_>,
     cells: Option<&CellMap>,
 ) -> Captured {
     let drawn = attempt.drawn();
-    let found = if drawn.path.is_empty() { without } else { Found::Path(attempt.lengths()) };
+    let found = if drawn.path.is_empty() { without } else { PlanOutcome::Path(attempt.lengths()) };
     plan(&PlanSheet { task, planner, seed: Seed(seed), drawn: &drawn, effort: attempt.effort(), found, cells })
 }

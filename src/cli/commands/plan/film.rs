@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use motion_lab::capture::{Found, Paper, slides};
+use motion_lab::capture::{Paper, PlanOutcome, slides};
 use motion_lab::collision::Checker;
 use motion_lab::cspace::{CellMap, Slice};
 use motion_lab::planning::Progress as Grown;
@@ -14,7 +14,7 @@ use super::drawing::captured;
 use super::task::attempt as attempt_by;
 use crate::cli::Failure;
 use crate::cli::support::paper::not_written;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 
 /// The greatest number of pictures.
@@ -38,7 +38,7 @@ pub fn write(
     let target = Target::file(output)?;
     let Ok(mut attempt) = attempt_by(task, name, Seed(seed))? else { return Ok(()) };
     let pictures = iterations.clamp(1, PICTURES);
-    let progress = Progress::of(pictures, "pictures");
+    let progress = CommandProgress::of(pictures, "pictures");
     let background = background(task);
     let (mut done, mut captures) = (0, Vec::new());
     for picture in 1..=pictures {
@@ -48,7 +48,7 @@ pub fn write(
         }
         done = until;
         let cells = attempt.cells().or(background.as_ref());
-        captures.push(captured(task, name, seed, attempt.as_ref(), Found::Growing, cells));
+        captures.push(captured(task, name, seed, attempt.as_ref(), PlanOutcome::Growing, cells));
         progress.at(picture);
     }
     drop(progress);

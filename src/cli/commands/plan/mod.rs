@@ -13,17 +13,17 @@ use std::time::Instant;
 
 use clap::Args;
 use motion_lab::planning::{Bounds, NoPath};
-use motion_lab::plans::{Attempt, PathFile, PlannerName, Task};
+use motion_lab::plans::{PathFile, PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
 use crate::cli::commands::record::SeedRange;
-use crate::cli::support::choices::{Numbers, RobotsAndKinds, WorldNames};
+use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames};
 use crate::cli::support::output::write_file;
 use crate::cli::support::paper::PaperArgs;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
-use answer::Answer;
+use answer::PlanAnswer;
 
 /// Plan a path that is proven free along its whole length, or say why there is none.
 ///
@@ -57,10 +57,10 @@ pub struct PlanArgs {
     world: Option<String>,
     /// Where the path begins: numbers joined by commas, in metres and radians. [default: where the robot starts]
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
-    from: Option<Numbers>,
+    from: Option<NumberList>,
     /// Where the path ends.
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
-    to: Numbers,
+    to: NumberList,
     /// The seed of the planner's samples, and of the run that plays the path.
     #[arg(long, default_value_t = 2005, conflicts_with = "compare")]
     seed: u64,
@@ -111,7 +111,7 @@ impl PlanArgs {
         if !(0.0..=1.0).contains(&self.tube) {
             return Err(Failure::usage(format!("--tube {}: it must be from 0 to 1 m", self.tube), "Change --tube."));
         }
-        let from = self.from.as_ref().map(|Numbers(from)| from.as_slice());
+        let from = self.from.as_ref().map(|NumberList(from)| from.as_slice());
         let task = task::find(&self.robot, self.world.as_deref(), from, &self.to.0, self.tube)?;
         if !self.compare.is_empty() {
             return compare::compare(&self, &task, data);
@@ -120,16 +120,16 @@ impl PlanArgs {
         let begun = Instant::now();
         let mut attempt = match task::attempt(&task, name, Seed(self.seed))? {
             Ok(attempt) => attempt,
-            Err(reason) => return self.none(&Answer::of_none(&task, name, self.seed, &reason), data),
+            Err(reason) => return self.none(&PlanAnswer::of_none(&task, name, self.seed, &reason), data),
         };
-        let progress = Progress::unknown("planning");
+        let progress = CommandProgress::unknown("planning");
         let solved = attempt.solve(&self.bounds(name));
         drop(progress);
         let seconds = begun.elapsed().as_secs_f64();
         match solved {
             Ok(()) => self.solved(&task, name, attempt.as_ref(), seconds, data),
             Err(reason) => {
-                let answer = Answer::of_none(&task, name, self.seed, &reason);
+                let answer = PlanAnswer::of_none(&task, name, self.seed, &reason);
                 self.draw(&task, name, attempt.as_ref())?;
                 self.none(&answer.after(attempt.effort()), data)
             }
@@ -142,7 +142,7 @@ impl PlanArgs {
     }
 
     /// Says that there is no path.
-    fn none(&self, answer: &Answer, data: &mut Data) -> Result<Outcome, Failure> {
+    fn none(&self, answer: &PlanAnswer, data: &mut Data) -> Result<Outcome, Failure> {
         if self.json {
             data.json(answer)?;
         } else if let Some(reason) = &answer.reason {
@@ -155,11 +155,11 @@ impl PlanArgs {
         &self,
         task: &Task,
         name: PlannerName,
-        attempt: &dyn Attempt,
+        attempt: &dyn PlanAttempt,
         seconds: f64,
         data: &mut Data,
     ) -> Result<Outcome, Failure> {
-        let mut answer = Answer::of_path(task, name, self.seed, attempt, seconds);
+        let mut answer = PlanAnswer::of_path(task, name, self.seed, attempt, seconds);
         // what can't be played is refused before anything is written
         let played = if self.script.is_some() || self.record.is_some() {
             match play::play(task, attempt, Seed(self.seed))? {
@@ -202,7 +202,7 @@ impl PlanArgs {
         Ok(Outcome::Done)
     }
 
-    fn draw(&self, task: &Task, name: PlannerName, attempt: &dyn Attempt) -> Result<(), Failure> {
+    fn draw(&self, task: &Task, name: PlannerName, attempt: &dyn PlanAttempt) -> Result<(), Failure> {
         let paper = self.paper.paper();
         if let Some(svg) = &self.svg {
             drawing::write(task, name, self.seed, attempt, &paper, svg)?;

@@ -3,15 +3,15 @@
 use std::path::Path;
 
 use motion_lab::export::JsonNumber;
-use motion_lab::plans::{Attempt, Task};
+use motion_lab::plans::{PlanAttempt, Task};
 use motion_lab::random::Seed;
 use motion_lab::run::{LogKind, Recipe};
 use motion_lab::simulation::{PlayError, PlayedPath};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
-use super::answer::Answer;
-use crate::cli::commands::record::{Ended, Stop, write_run};
+use super::answer::PlanAnswer;
+use crate::cli::commands::record::{Ended, StopRule, write_run};
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure};
@@ -28,7 +28,7 @@ pub struct Played {
 }
 
 /// The script of the path that an attempt has found, or why it can't be played.
-pub fn play(task: &Task, attempt: &dyn Attempt, seed: Seed) -> Result<Result<Played, PlayError>, Failure> {
+pub fn play(task: &Task, attempt: &dyn PlanAttempt, seed: Seed) -> Result<Result<Played, PlayError>, Failure> {
     if task.name == "choset" {
         let reason = "an arm without thickness lives in no world, so it can't play its path";
         return Err(Failure::usage(reason, "Plan for --robot reach."));
@@ -57,7 +57,7 @@ impl Played {
         &self,
         script: Option<&Path>,
         log: Option<&Path>,
-        answer: &mut Answer,
+        answer: &mut PlanAnswer,
         data: &mut Data,
     ) -> Result<(), Failure> {
         let Played { world, seed, played } = self;
@@ -71,7 +71,7 @@ impl Played {
             let config = TourConfig { worlds: vec![world.clone()], ticks: played.ticks + AFTER, sensor: None };
             let target = Target::file(path)?;
             let recipe = Recipe::new(config, (*seed, played.script.clone()));
-            let stop = Stop { at_refusal: true, ..Stop::default() };
+            let stop = StopRule { at_refusal: true, ..StopRule::default() };
             match write_run(&recipe, LogKind::Frames, None, stop, path)? {
                 Ended::Whole { digest, last, .. } => {
                     let contacts: u32 = last.robots.iter().map(|robot| robot.contacts).sum();

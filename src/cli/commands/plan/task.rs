@@ -2,7 +2,7 @@
 
 use clap::builder::TypedValueParser;
 use motion_lab::planning::NoPath;
-use motion_lab::plans::{Attempt, PlannerName, Task};
+use motion_lab::plans::{PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 use motion_lab::robots::AnyRobot;
 
@@ -27,7 +27,7 @@ pub fn find(name: &str, world: Option<&str>, from: Option<&[f64]>, to: &[f64], t
 }
 
 /// The planner of this name with the problem, ready to begin; or why there is no problem.
-pub fn attempt(task: &Task, name: PlannerName, seed: Seed) -> Result<Result<Box<dyn Attempt>, NoPath>, Failure> {
+pub fn attempt(task: &Task, name: PlannerName, seed: Seed) -> Result<Result<Box<dyn PlanAttempt>, NoPath>, Failure> {
     let is_car = matches!(task.robot, AnyRobot::Hitch(_));
     let is_cars = name == PlannerName::HybridAStar;
     if let (true, Err(reason)) = (is_car != is_cars, name.suits(&task.robot)) {

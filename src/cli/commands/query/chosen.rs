@@ -7,7 +7,7 @@ use motion_lab::configuration::{AnyConfiguration, RobotKind};
 use motion_lab::robots::{AnyRobot, Reach};
 use motion_lab::worlds::{Resident, World};
 
-use super::line::{Asked, check_place, finite};
+use super::line::{QuerySubject, check_place, finite};
 use crate::cli::Failure;
 use crate::cli::support::choices::{CHOSET, KINDS};
 use crate::cli::support::world_source::find_world;
@@ -114,7 +114,7 @@ impl Chosen {
     pub fn checker(
         &self,
         scene: &Arc<Scene>,
-        asked: &Asked,
+        asked: &QuerySubject,
     ) -> Result<(Checker<AnyRobot>, AnyConfiguration, Option<AnyConfiguration>), String> {
         let (robot, q) = self.with(&asked.q)?;
         let to = asked.to.as_deref().map(|to| self.with(to)).transpose().map_err(|reason| format!("`to`: {reason}"))?;

@@ -16,12 +16,12 @@ pub enum Dimensions {
     Reach { base: [JsonNumber; 2], lengths: Vec<JsonNumber>, radius: JsonNumber },
     /// Rectangles, half the width to either side of the x axis of their frames: the body in the frame (x, y, theta),
     /// the trailer in the frame (x, y, psi).
-    Hitch { body: Body, trailer: Option<Trailer> },
+    Hitch { body: Chassis, trailer: Option<Trailer> },
 }
 
 /// The chassis: along its x axis from `-rear_overhang` to `length - rear_overhang`.
 #[derive(Debug, Serialize)]
-pub struct Body {
+pub struct Chassis {
     length: JsonNumber,
     width: JsonNumber,
     rear_overhang: JsonNumber,
@@ -58,7 +58,7 @@ impl Dimensions {
     fn of_car(car: &Hitch) -> Dimensions {
         let (body, towed) = (car.body, car.trailer_body);
         Dimensions::Hitch {
-            body: Body {
+            body: Chassis {
                 length: JsonNumber(body.length),
                 width: JsonNumber(body.width),
                 rear_overhang: JsonNumber(body.rear_overhang),

@@ -6,7 +6,7 @@ use serde::Deserialize;
 /// The subject of a question: a configuration, or a motion from it.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Asked {
+pub struct QuerySubject {
     /// The configuration's coordinates.
     pub q: Vec<f64>,
     /// The coordinates of the motion's end.
@@ -15,9 +15,9 @@ pub struct Asked {
 }
 
 /// Reads `[x, y, theta]` or `{"q": [..], "to": [..]}`. The error says what is wrong and in which column.
-pub fn parse_line(text: &str) -> Result<Asked, String> {
+pub fn parse_line(text: &str) -> Result<QuerySubject, String> {
     let read = if text.starts_with('[') {
-        serde_json::from_str(text).map(|q| Asked { q, to: None })
+        serde_json::from_str(text).map(|q| QuerySubject { q, to: None })
     } else {
         serde_json::from_str(text)
     };
@@ -80,9 +80,9 @@ mod tests {
     #[test]
     fn both_forms_are_read_to_the_last_bit() {
         let q = vec![0.1 + 0.2, -5e-324];
-        assert_eq!(parse_line("[0.30000000000000004, -5e-324]"), Ok(Asked { q: q.clone(), to: None }));
+        assert_eq!(parse_line("[0.30000000000000004, -5e-324]"), Ok(QuerySubject { q: q.clone(), to: None }));
         let motion = r#"{"q": [0.30000000000000004, -5e-324], "to": [1, 2]}"#;
-        assert_eq!(parse_line(motion), Ok(Asked { q, to: Some(vec![1.0, 2.0]) }));
+        assert_eq!(parse_line(motion), Ok(QuerySubject { q, to: Some(vec![1.0, 2.0]) }));
     }
 
     #[test]

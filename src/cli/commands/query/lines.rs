@@ -6,7 +6,7 @@ use std::io::{self, BufRead, BufReader, Read};
 pub const MAX_LINE: u64 = 1 << 20;
 
 /// A line, or what is wrong with it.
-pub struct Line {
+pub struct InputLine {
     /// Its number, from 1.
     pub number: u64,
     /// The text without its end, or why there is none.
@@ -31,7 +31,7 @@ impl<R: Read> Lines<R> {
     }
 
     /// The next line; `None` at the end.
-    pub fn next_line(&mut self) -> io::Result<Option<Line>> {
+    pub fn next_line(&mut self) -> io::Result<Option<InputLine>> {
         let mut bytes = Vec::new();
         self.reader.by_ref().take(MAX_LINE + 1).read_until(b'\n', &mut bytes)?;
         if bytes.is_empty() {
@@ -47,7 +47,7 @@ impl<R: Read> Lines<R> {
             String::from_utf8(bytes)
                 .map_err(|e| format!("not UTF-8 from byte {} of the line on", e.utf8_error().valid_up_to()))
         };
-        Ok(Some(Line { number: self.number, text }))
+        Ok(Some(InputLine { number: self.number, text }))
     }
 
     fn skip_rest(&mut self) -> io::Result<()> {

@@ -20,12 +20,12 @@ use serde::Serialize;
 use answer::{Answer, ask, ask_scan};
 use certificate::EdgeCertificate;
 pub use chosen::Chosen;
-use line::{Asked, parse_line};
+use line::{QuerySubject, parse_line};
 use lines::Lines;
 
-use crate::cli::support::choices::{KINDS, Numbers, RobotsAndKinds, WorldNames};
+use crate::cli::support::choices::{KINDS, NumberList, RobotsAndKinds, WorldNames};
 use crate::cli::support::input::{is_dash, open, shown};
-use crate::cli::support::progress::{self, Progress};
+use crate::cli::support::progress::{self, CommandProgress};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -68,10 +68,10 @@ pub struct Query {
     question: Question,
     /// The configuration: numbers joined by commas, in metres and radians. [default: a resident's start]
     #[arg(value_name = "NUMBERS", allow_hyphen_values = true, conflicts_with = "input")]
-    q: Option<Numbers>,
+    q: Option<NumberList>,
     /// Where the motion of `swept` or `edge` ends.
     #[arg(value_name = "TO", allow_hyphen_values = true)]
-    to: Option<Numbers>,
+    to: Option<NumberList>,
     /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty
     /// (the disc of radius 0.11 m: x,y or x,y,theta), reach (the two-link arm with 3 cm capsule links: th1,th2), choset
     /// (the same arm without thickness), reach3 (the three-link arm: th1,th2,th3), hitch (the car: x,y,theta; with the
@@ -126,11 +126,11 @@ impl Query {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let desk = self.desk()?;
-        let start = || desk.robot.as_ref().and_then(|robot| robot.start.clone()).map(Numbers);
+        let start = || desk.robot.as_ref().and_then(|robot| robot.start.clone()).map(NumberList);
         let q = if self.input.is_some() { None } else { self.q.or_else(start) };
         match (q, &self.input) {
-            (Some(Numbers(q)), _) => {
-                let asked = Asked { q, to: self.to.map(|Numbers(to)| to) };
+            (Some(NumberList(q)), _) => {
+                let asked = QuerySubject { q, to: self.to.map(|NumberList(to)| to) };
                 let usage = |reason: String| Failure::usage(reason, "See `motion-lab query --help`.");
                 if let Some(path) = &self.certificate {
                     let certificate = desk.certify(&asked).map_err(usage)?;
@@ -151,7 +151,7 @@ impl Query {
         }
     }
 
-    fn desk(&self) -> Result<Desk, Failure> {
+    fn desk(&self) -> Result<QuerySetup, Failure> {
         if self.robot.is_none() && self.question != Question::Scan {
             return Err(Failure::usage("no robot is named", format!("Add --robot with one of {}.", KINDS.join(", "))));
         }
@@ -169,12 +169,12 @@ impl Query {
             None => (None, find_world(world.unwrap_or("apartment"))?),
         };
         let scene = Arc::new(Scene::of_world(&world));
-        Ok(Desk { question: self.question, world: world.name, scene, robot, sensor })
+        Ok(QuerySetup { question: self.question, world: world.name, scene, robot, sensor })
     }
 }
 
 /// Everything that stays the same from one configuration to the next.
-struct Desk {
+struct QuerySetup {
     question: Question,
     /// The world's name.
     world: String,
@@ -188,8 +188,8 @@ struct WrongLine {
     error: String,
 }
 
-impl Desk {
-    fn answer(&self, asked: &Asked) -> Result<Answer, String> {
+impl QuerySetup {
+    fn answer(&self, asked: &QuerySubject) -> Result<Answer, String> {
         self.check(asked)?;
         match (self.question, &self.robot) {
             (Question::Scan, _) => ask_scan(&self.scene, &self.sensor, &asked.q),
@@ -201,7 +201,7 @@ impl Desk {
         }
     }
 
-    fn certify(&self, asked: &Asked) -> Result<EdgeCertificate, String> {
+    fn certify(&self, asked: &QuerySubject) -> Result<EdgeCertificate, String> {
         self.check(asked)?;
         let robot = self.robot.as_ref().ok_or("no robot is named")?;
         let (checker, q, to) = robot.checker(&self.scene, asked)?;
@@ -209,7 +209,7 @@ impl Desk {
     }
 
     /// Checks that a motion's end is given to a question about a motion, and to no other.
-    fn check(&self, asked: &Asked) -> Result<(), String> {
+    fn check(&self, asked: &QuerySubject) -> Result<(), String> {
         match (&asked.to, self.question.is_of_motion()) {
             (None, true) => Err("this question is about a motion and needs `to`, where it ends".into()),
             (Some(_), false) => Err("this question is about one configuration and takes no `to`".into()),
@@ -225,8 +225,8 @@ impl Desk {
         length: Option<u64>,
         data: &mut Data,
     ) -> Result<Outcome, Failure> {
-        let progress = length.map_or_else(|| Progress::uncounted("lines"), Progress::of_bytes);
-        let nothing = Progress::none();
+        let progress = length.map_or_else(|| CommandProgress::uncounted("lines"), CommandProgress::of_bytes);
+        let nothing = CommandProgress::none();
         let mut lines = Lines::new(progress::Read(reader, if length.is_some() { &progress } else { &nothing }));
         let mut wrong = 0_u64;
         while !data.is_closed() {

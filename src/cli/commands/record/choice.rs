@@ -8,13 +8,13 @@ use crate::cli::Failure;
 
 /// A robot's place: where it starts, and its kind if that is not the world's.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Placement {
+pub struct StartChoice {
     name: String,
     kind: Option<String>,
     start: Vec<f64>,
 }
 
-impl FromStr for Placement {
+impl FromStr for StartChoice {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -26,15 +26,15 @@ impl FromStr for Placement {
         };
         let number = |n: &str| n.trim().parse::<f64>().map_err(|_| format!("{n:?} is no number: {form}"));
         let start = numbers.split(',').map(number).collect::<Result<_, _>>()?;
-        Ok(Placement { name: name.to_owned(), kind, start })
+        Ok(StartChoice { name: name.to_owned(), kind, start })
     }
 }
 
 /// Keeps the robots of these names, or all of them when none is named, and puts those that have a place there.
 ///
 /// `NAME=KIND:NUMBERS` as a name, the earlier spelling, both keeps a robot and puts it there.
-pub fn choose(worlds: &mut [World], names: &[String], places: &[Placement]) -> Result<(), Failure> {
-    let mut places: Vec<(&str, Placement)> = places.iter().map(|place| ("--place", place.clone())).collect();
+pub fn choose(worlds: &mut [World], names: &[String], places: &[StartChoice]) -> Result<(), Failure> {
+    let mut places: Vec<(&str, StartChoice)> = places.iter().map(|place| ("--place", place.clone())).collect();
     let mut kept: Vec<&str> = Vec::new();
     for text in names {
         let known = |name: &str| worlds.iter().any(|w| w.robots.iter().any(|r| r.name == name));
@@ -75,7 +75,7 @@ pub fn choose(worlds: &mut [World], names: &[String], places: &[Placement]) -> R
 /// What to do about a wrong choice.
 const HELP: &str = "See `motion-lab record --help`.";
 
-impl Placement {
+impl StartChoice {
     /// The robot as this placement has it. One of the same kind keeps all else that the world says of it.
     fn put(&self, robot: &Resident) -> Result<Resident, String> {
         let placed = self.replace(robot)?;
@@ -84,7 +84,7 @@ impl Placement {
 
     /// A new robot in place of this one, as `--robot NAME=KIND:NUMBERS` makes it. One of the same kind has its sizes.
     fn replace(&self, robot: &Resident) -> Result<Resident, String> {
-        let Placement { name, kind, start } = self;
+        let StartChoice { name, kind, start } = self;
         let kind = kind.clone().unwrap_or_else(|| robot.kind.clone());
         let placed = Resident::try_new(name.clone(), kind, start.clone(), None);
         let placed = placed.map_err(|problem| format!("{name}: {problem}"))?;

@@ -6,11 +6,11 @@ use motion_lab::random::Seed;
 use motion_lab::run::Recipe;
 use rayon::prelude::*;
 
-use super::one::{Ended, Stop, refused_in_words, run, write_run};
+use super::one::{Ended, StopRule, refused_in_words, run, write_run};
 use super::seeds::SeedRange;
-use super::written::Written;
-use super::{Outcome, Record};
-use crate::cli::support::progress::Progress;
+use super::written::RecordedLogs;
+use super::{Outcome, RecordArgs};
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, say};
@@ -19,18 +19,18 @@ use crate::cli::{Data, Failure, say};
 const AHEAD: u64 = 4;
 
 /// Records a run for each seed: the recipe with this seed in place of its own.
-pub fn record(options: &Record, seeds: SeedRange, recipe: &Recipe, data: &mut Data) -> Result<Outcome, Failure> {
-    let mut written = Written::default();
+pub fn record(options: &RecordArgs, seeds: SeedRange, recipe: &Recipe, data: &mut Data) -> Result<Outcome, Failure> {
+    let mut written = RecordedLogs::default();
     let outcome = record_each(options, seeds, recipe, &mut written, data);
     written.say();
     outcome
 }
 
 fn record_each(
-    options: &Record,
+    options: &RecordArgs,
     seeds: SeedRange,
     recipe: &Recipe,
-    written: &mut Written,
+    written: &mut RecordedLogs,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
     let output = template(options)?;
@@ -39,8 +39,8 @@ fn record_each(
     let pool = pool.map_err(Failure::internal)?;
     let mut refused: Option<(u64, u64, String)> = None;
     let batch = AHEAD * pool.current_num_threads() as u64;
-    let progress = Progress::of(seeds.end - seeds.first, "seeds");
-    let stop = Stop { unwatched: true, at_refusal: options.strict, ..Stop::default() };
+    let progress = CommandProgress::of(seeds.end - seeds.first, "seeds");
+    let stop = StopRule { unwatched: true, at_refusal: options.strict, ..StopRule::default() };
     let mut first = seeds.first;
     while first < seeds.end && !data.is_closed() {
         let end = seeds.end.min(first.saturating_add(batch));
@@ -101,7 +101,7 @@ fn record_each(
 }
 
 /// The output's name with `{seed}` in it.
-fn template(options: &Record) -> Result<Option<String>, Failure> {
+fn template(options: &RecordArgs) -> Result<Option<String>, Failure> {
     let Some(output) = &options.output else { return Ok(None) };
     match output.to_str() {
         Some(name) if name.contains("{seed}") => Ok(Some(name.to_owned())),

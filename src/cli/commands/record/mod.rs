@@ -18,10 +18,10 @@ use crate::cli::support::choices::{RobotNames, WorldNames, log_kind};
 use crate::cli::support::console::note;
 use crate::cli::support::interrupt;
 use crate::cli::{Data, Failure, Outcome};
-use choice::Placement;
+use choice::StartChoice;
 
 use one::Printed;
-pub use one::{Ended, Stop, partial_name, run, write_run, write_run_watched};
+pub use one::{Ended, StopRule, partial_name, run, write_run, write_run_watched};
 pub use seeds::SeedRange;
 
 /// Record a run, and print where its robots end, their contacts and its digest.
@@ -37,7 +37,7 @@ Examples:
   motion-lab record --place Reach=reach3:0.1,0.2,0.3
   motion-lab record --seeds 0..100 --threads 4
   motion-lab record --resume seven.mcap.partial")]
-pub struct Record {
+pub struct RecordArgs {
     /// A built-in world or the path of a world file; may be given several times. [default: apartment, workbench, lot]
     #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     world: Vec<String>,
@@ -48,7 +48,7 @@ pub struct Record {
     /// hitch): "Rusty=1,2,0", "Reach=reach3:0.1,0.2,0.3". The other robots stay. It keeps the sizes that the world says
     /// unless it becomes of another kind. May be given several times.
     #[arg(long, value_name = "NAME=[KIND:]NUMBERS")]
-    place: Vec<Placement>,
+    place: Vec<StartChoice>,
     /// The seed. [default: 2005]
     #[arg(long, conflicts_with = "seeds")]
     seed: Option<u64>,
@@ -105,7 +105,7 @@ pub struct Record {
     debug: bool,
 }
 
-impl Record {
+impl RecordArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         interrupt::listen()?;
@@ -137,8 +137,8 @@ impl Record {
         kind
     }
 
-    fn stop(&self) -> Stop {
-        Stop { after: self.stop_after, unwatched: false, at_refusal: self.strict }
+    fn stop(&self) -> StopRule {
+        StopRule { after: self.stop_after, unwatched: false, at_refusal: self.strict }
     }
 
     fn printed(&self) -> Printed {

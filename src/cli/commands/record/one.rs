@@ -7,8 +7,8 @@ use motion_lab::run::{Comparison, DT, Digest, Frame, Log, LogError, LogKind, Log
 use motion_lab::simulation::Refusals;
 
 use crate::cli::support::interrupt;
-use crate::cli::support::output::PendingFile;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::output::ReportedFile;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::support::target::Target;
@@ -19,7 +19,7 @@ const SECOND: u64 = (1.0 / DT) as u64;
 
 /// When to stop early.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Stop {
+pub struct StopRule {
     /// After this tick.
     pub after: Option<u64>,
     /// Whether somebody else says how far the run has come.
@@ -28,10 +28,10 @@ pub struct Stop {
     pub at_refusal: bool,
 }
 
-impl Stop {
+impl StopRule {
     /// The progress of a run of this number of ticks.
-    fn progress(self, ticks: u64) -> Progress {
-        if self.unwatched { Progress::none() } else { Progress::of(ticks, "ticks") }
+    fn progress(self, ticks: u64) -> CommandProgress {
+        if self.unwatched { CommandProgress::none() } else { CommandProgress::of(ticks, "ticks") }
     }
 
     fn now(self, tick: u64) -> bool {
@@ -57,7 +57,7 @@ pub enum Ended {
 }
 
 /// What takes the frames of a run.
-pub trait Sink {
+pub trait FrameSink {
     /// Takes the next frame, that of tick 0 first.
     fn take(&mut self, frame: &Frame) -> Result<(), Failure>;
 
@@ -67,7 +67,12 @@ pub trait Sink {
 
 /// Runs a recipe and hands every frame to `sink`. Ends early when `stop` says so, or at the first difference from
 /// `expected`.
-fn run_into(recipe: &Recipe, expected: Option<&Log>, stop: Stop, sink: &mut impl Sink) -> Result<Ended, Failure> {
+fn run_into(
+    recipe: &Recipe,
+    expected: Option<&Log>,
+    stop: StopRule,
+    sink: &mut impl FrameSink,
+) -> Result<Ended, Failure> {
     let watched = stop.progress(recipe.config.ticks);
     let mut run = begin(recipe)?;
     sink.take(run.frame())?;
@@ -99,18 +104,18 @@ fn run_into(recipe: &Recipe, expected: Option<&Log>, stop: Stop, sink: &mut impl
 }
 
 /// Runs a recipe and calls `see` with every frame, that of tick 0 first.
-pub fn run(recipe: &Recipe, stop: Stop, see: impl FnMut(&Frame)) -> Result<Ended, Failure> {
-    run_into(recipe, None, stop, &mut Watched { recipe, run: None, see })
+pub fn run(recipe: &Recipe, stop: StopRule, see: impl FnMut(&Frame)) -> Result<Ended, Failure> {
+    run_into(recipe, None, stop, &mut WatchedRun { recipe, run: None, see })
 }
 
 /// A run whose frames are seen, and hashed.
-struct Watched<'a, F> {
+struct WatchedRun<'a, F> {
     recipe: &'a Recipe,
     run: Option<RunDigest>,
     see: F,
 }
 
-impl<F: FnMut(&Frame)> Sink for Watched<'_, F> {
+impl<F: FnMut(&Frame)> FrameSink for WatchedRun<'_, F> {
     fn take(&mut self, frame: &Frame) -> Result<(), Failure> {
         (self.see)(frame);
         match &mut self.run {
@@ -130,8 +135,8 @@ struct Writing<'a, F> {
     recipe: &'a Recipe,
     kind: LogKind,
     output: &'a Path,
-    file: Option<PendingFile>,
-    writer: Option<LogWriter<PendingFile>>,
+    file: Option<ReportedFile>,
+    writer: Option<LogWriter<ReportedFile>>,
     /// The last tick that the operating system took.
     taken: u64,
     see: F,
@@ -146,7 +151,7 @@ impl<F> Writing<'_, F> {
     }
 }
 
-impl<F: FnMut(&Frame)> Sink for Writing<'_, F> {
+impl<F: FnMut(&Frame)> FrameSink for Writing<'_, F> {
     fn take(&mut self, frame: &Frame) -> Result<(), Failure> {
         (self.see)(frame);
         let Some(writer) = &mut self.writer else {
@@ -180,7 +185,7 @@ pub fn write_run(
     recipe: &Recipe,
     kind: LogKind,
     expected: Option<&Log>,
-    stop: Stop,
+    stop: StopRule,
     output: &Path,
 ) -> Result<Ended, Failure> {
     write_run_watched(recipe, kind, expected, stop, output, |_| {})
@@ -191,11 +196,11 @@ pub fn write_run_watched(
     recipe: &Recipe,
     kind: LogKind,
     expected: Option<&Log>,
-    stop: Stop,
+    stop: StopRule,
     output: &Path,
     see: impl FnMut(&Frame),
 ) -> Result<Ended, Failure> {
-    let file = Some(PendingFile::create(output)?);
+    let file = Some(ReportedFile::create(output)?);
     let mut writing = Writing { recipe, kind, output, file, writer: None, taken: 0, see };
     let ended = run_into(recipe, expected, stop, &mut writing);
     let Some(mut writer) = writing.writer.take() else { return ended };
@@ -215,7 +220,7 @@ pub fn write_run_watched(
         (Ok(ended @ Ended::Whole { .. }), Ok(_)) => file.commit().map(|()| ended),
         (Ok(ended), Ok(Some(name))) => file.keep_as(&name).map(|()| ended),
         (Err(failure @ Failure::Output { .. }), _) | (Ok(_), Err(failure)) if writing.taken > before => {
-            Err(kept(file, output, failure))
+            Err(with_partial_output(file, output, failure))
         }
         (Ok(_), Err(failure)) => Err(failure),
         (ended, _) => ended,
@@ -223,7 +228,7 @@ pub fn write_run_watched(
 }
 
 /// The failure of a write, after what the disk took before was kept.
-fn kept(file: PendingFile, output: &Path, failure: Failure) -> Failure {
+fn with_partial_output(file: ReportedFile, output: &Path, failure: Failure) -> Failure {
     let partial = partial_name(output);
     match (failure, file.keep_as(&partial)) {
         (Failure::Output { file, reason, next }, Ok(())) => {
@@ -270,7 +275,7 @@ pub fn record(
     kind: LogKind,
     expected: Option<&Log>,
     output: Option<&Path>,
-    stop: Stop,
+    stop: StopRule,
     form: Printed,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {

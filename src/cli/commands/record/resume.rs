@@ -5,7 +5,7 @@ use std::path::Path;
 
 use motion_lab::output::{is_left, is_temporary, unfinished, whole_name};
 
-use super::one::{Printed, Stop, record};
+use super::one::{Printed, StopRule, record};
 use crate::cli::support::input::read_bytes_if;
 use crate::cli::support::log_source::{begins_as_one, read_log};
 use crate::cli::{Data, Failure, Outcome, say};
@@ -18,7 +18,7 @@ const MAX_NAMED: usize = 10;
 pub fn resume(
     file: &Path,
     output: Option<&Path>,
-    stop: Stop,
+    stop: StopRule,
     form: Printed,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {

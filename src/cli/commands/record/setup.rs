@@ -5,7 +5,7 @@ use motion_lab::run::{DT, Script};
 use motion_lab::sensors::RangeSensor;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
-use super::Record;
+use super::RecordArgs;
 use super::choice::choose;
 use crate::cli::Failure;
 use crate::cli::support::input::read_text;
@@ -13,12 +13,12 @@ use crate::cli::support::words::{parse_script, unfit};
 use crate::cli::support::world_source::find_world;
 
 /// The seed.
-pub fn seed(options: &Record) -> Seed {
+pub fn seed(options: &RecordArgs) -> Seed {
     options.seed.map_or(BOOK_SEED, Seed)
 }
 
 /// The configuration: the default tour with what the options change.
-pub fn config(options: &Record) -> Result<TourConfig, Failure> {
+pub fn config(options: &RecordArgs) -> Result<TourConfig, Failure> {
     let mut config = TourConfig::default();
     if !options.world.is_empty() {
         config.worlds = options.world.iter().map(|name| find_world(name)).collect::<Result<_, _>>()?;
@@ -33,7 +33,7 @@ pub fn config(options: &Record) -> Result<TourConfig, Failure> {
     Ok(config)
 }
 
-fn ticks(options: &Record) -> Result<Option<u64>, Failure> {
+fn ticks(options: &RecordArgs) -> Result<Option<u64>, Failure> {
     let Some(seconds) = options.seconds else { return Ok(options.ticks) };
     let ticks = (seconds / DT).round();
     // written so that NaN is refused
@@ -47,7 +47,7 @@ fn ticks(options: &Record) -> Result<Option<u64>, Failure> {
 }
 
 /// The script, checked against the run: its robots, and where --strict is given, that they take their inputs.
-pub fn script(options: &Record, config: &TourConfig) -> Result<Script, Failure> {
+pub fn script(options: &RecordArgs, config: &TourConfig) -> Result<Script, Failure> {
     config.validate().map_err(|error| Failure::usage(error, "See `motion-lab record --help`."))?;
     let Some(path) = &options.script else { return Ok(Script::empty()) };
     let (name, text) = (path.display().to_string(), read_text(path)?);

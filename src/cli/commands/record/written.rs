@@ -4,11 +4,11 @@ use crate::cli::support::console::note;
 use crate::cli::support::words::counted;
 
 /// Largest number of stretches of seeds that are named.
-const MOST_NAMED: usize = 20;
+const MAX_NAMED: usize = 20;
 
 /// The logs that a recording of many seeds has written.
 #[derive(Debug, Default)]
-pub struct Written {
+pub struct RecordedLogs {
     /// How many there are.
     logs: usize,
     /// The seeds whose logs replaced older files, ascending.
@@ -17,7 +17,7 @@ pub struct Written {
     older: u64,
 }
 
-impl Written {
+impl RecordedLogs {
     /// Counts the log of a seed. `older` is the size of the file that it replaced, bytes.
     pub fn add(&mut self, seed: u64, older: Option<u64>) {
         self.logs += 1;
@@ -53,12 +53,12 @@ impl Written {
 /// Ascending seeds as `--seeds` would have them, `2, 5..8`; the first of them, where there are many stretches.
 fn stretches(seeds: &[u64]) -> String {
     let parts: Vec<&[u64]> = seeds.chunk_by(|a, b| a.checked_add(1) == Some(*b)).collect();
-    let named = parts.iter().take(MOST_NAMED).map(|part| match part {
+    let named = parts.iter().take(MAX_NAMED).map(|part| match part {
         [first, .., last] => format!("{first}..{}", u128::from(*last) + 1),
         part => part.iter().map(u64::to_string).collect(),
     });
     let mut text = named.collect::<Vec<_>>().join(", ");
-    if parts.len() > MOST_NAMED {
+    if parts.len() > MAX_NAMED {
         text.push_str(" and more");
     }
     text
@@ -71,7 +71,7 @@ mod tests {
     #[test]
     fn what_was_replaced_is_named_by_its_seeds() {
         let words = |logs: &[(u64, Option<u64>)]| {
-            let mut written = Written::default();
+            let mut written = RecordedLogs::default();
             logs.iter().for_each(|(seed, older)| written.add(*seed, *older));
             written.in_words()
         };

@@ -101,7 +101,7 @@ Examples:
 
 /// The summary of a script.
 #[derive(Serialize)]
-struct Summary<'a> {
+struct ScriptSummary<'a> {
     source: String,
     events: usize,
     /// Changes of worlds; left out where there are none.
@@ -180,7 +180,7 @@ fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Resul
     let mut seen = BTreeSet::new();
     let robots: Vec<&str> = script.events.iter().map(|e| e.robot.as_str()).filter(|name| seen.insert(*name)).collect();
     let ticks = || script.events.iter().map(|e| e.tick).chain(script.changes.iter().map(|c| c.tick));
-    let summary = Summary {
+    let summary = ScriptSummary {
         source: file.display().to_string(),
         events: script.events.len(),
         changes: script.changes.len(),
@@ -191,7 +191,7 @@ fn summarise(file: &Path, script: &Script, json: bool, data: &mut Data) -> Resul
     if json {
         return data.json(&summary);
     }
-    let Summary { source, events, changes, robots, .. } = &summary;
+    let ScriptSummary { source, events, changes, robots, .. } = &summary;
     let changes = changes_in_words(*changes);
     match (summary.first, summary.last) {
         (Some(first), Some(last)) => {

@@ -6,7 +6,7 @@ use motion_lab::tour::TourConfig;
 /// What is wrong with a table, and where. Prints as `7:12: "fast" is no whole number`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{line}:{column}: {reason}")]
-pub struct TableError {
+pub struct ScriptTableError {
     /// The line, from 1.
     line: usize,
     /// The column in characters, from 1.
@@ -19,10 +19,10 @@ pub struct TableError {
 const MAX_CELLS: usize = 1000;
 
 /// A cell and the column where it begins, from 1.
-type Cell = (usize, String);
+type TableCell = (usize, String);
 
 /// The script that a table describes, checked against a run's worlds and robots where they are given.
-pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, TableError> {
+pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptTableError> {
     let mut script = Script::new(Vec::new(), vec![]);
     // of each event the line, and the columns of its tick, its robot, its input and that input's first value
     let mut rows: Vec<(usize, [usize; 4])> = Vec::new();
@@ -31,13 +31,13 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, TableEr
         if row.trim().is_empty() || row.starts_with('#') {
             continue;
         }
-        let at = |(column, reason): (usize, String)| TableError { line, column, reason };
+        let at = |(column, reason): (usize, String)| ScriptTableError { line, column, reason };
         let cells = cells(row).map_err(at)?;
         if rows.is_empty() && script.events.is_empty() && cells[0].1.eq_ignore_ascii_case("tick") {
             continue;
         }
         script.events.push(event(&cells, row.chars().count() + 1).map_err(at)?);
-        rows.push((line, [0, 1, 2, 3].map(|i| cells.get(i).map_or(1, |cell: &Cell| cell.0))));
+        rows.push((line, [0, 1, 2, 3].map(|i| cells.get(i).map_or(1, |cell: &TableCell| cell.0))));
     }
     // the script's own checks: ticks in order, sizes
     let checked = config.map_or_else(|| script.check(), |config| script.check_for(config));
@@ -49,13 +49,13 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, TableEr
             ScriptProblem::NotTaken(_) => input,
             _ => value,
         };
-        TableError { line, column, reason: error.problem.to_string() }
+        ScriptTableError { line, column, reason: error.problem.to_string() }
     })?;
     Ok(script)
 }
 
 /// The event of a row that ends before column `end`.
-fn event(cells: &[Cell], end: usize) -> Result<Event, (usize, String)> {
+fn event(cells: &[TableCell], end: usize) -> Result<Event, (usize, String)> {
     let cell = |i: usize, what: &str| match cells.get(i) {
         Some((column, text)) if text.is_empty() => Err((*column, format!("{what} is missing"))),
         Some((column, text)) => Ok((*column, text.as_str())),
@@ -105,11 +105,11 @@ fn event(cells: &[Cell], end: usize) -> Result<Event, (usize, String)> {
 }
 
 /// Metres and radians.
-fn coordinates(cells: &[Cell], end: usize) -> Result<Vec<Quantized>, (usize, String)> {
+fn coordinates(cells: &[TableCell], end: usize) -> Result<Vec<Quantized>, (usize, String)> {
     if cells.is_empty() {
         return Err((end, "the coordinates are missing".to_owned()));
     }
-    let coordinate = |(column, text): &Cell| {
+    let coordinate = |(column, text): &TableCell| {
         let number = text.parse::<f64>().map_err(|_| (*column, format!("{text:?} is no number")))?;
         Quantized::try_new(number).ok_or_else(|| (*column, format!("{text} is too large or not finite")))
     };
@@ -118,7 +118,7 @@ fn coordinates(cells: &[Cell], end: usize) -> Result<Vec<Quantized>, (usize, Str
 
 /// The cells of a row, at least one, without white space around them and without empty ones at its end. A cell may
 /// stand in quotes, a quote in it doubled.
-fn cells(row: &str) -> Result<Vec<Cell>, (usize, String)> {
+fn cells(row: &str) -> Result<Vec<TableCell>, (usize, String)> {
     let mut cells = Vec::new();
     let mut rest = row.chars().zip(1..).peekable();
     loop {

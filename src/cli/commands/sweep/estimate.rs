@@ -3,17 +3,17 @@
 use std::fs;
 use std::time::Instant;
 
-use motion_lab::batch::{Shard, SweepPlan};
+use motion_lab::batch::{Shard, Study};
 use tempfile::TempDir;
 
 use super::Keep;
 use super::one::{self, Ran};
 use crate::cli::support::interrupt;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Most runs that are measured.
-const MOST: u64 = 32;
+const MAX_MEASURED: u64 = 32;
 /// No further run is measured after this time, seconds.
 const ENOUGH: f64 = 5.0;
 /// The time of one shard, seconds.
@@ -21,7 +21,7 @@ const SHARD: f64 = 600.0;
 
 /// Measures a few runs, evenly spread over a shard, one after the other, and says what all of its runs take.
 pub fn estimate(
-    plan: &SweepPlan,
+    study: &Study,
     shard: Shard,
     jobs: Option<usize>,
     keep: Keep,
@@ -29,20 +29,20 @@ pub fn estimate(
 ) -> Result<Outcome, Failure> {
     interrupt::listen()?;
     let folder = TempDir::new().map_err(|error| Failure::output(&std::env::temp_dir(), &error))?;
-    let (rows, jobs) = (shard.rows(plan.runs()), super::shard::pool(jobs)?.current_num_threads());
+    let (rows, jobs) = (shard.rows(study.runs()), super::shard::pool(jobs)?.current_num_threads());
     let runs = rows.end - rows.start;
     if runs == 0 {
-        data.line(format!("0 runs: the sweep has {} in all", plan.runs()))?;
+        data.line(format!("0 runs: the sweep has {} in all", study.runs()))?;
         return Ok(Outcome::Done);
     }
-    let samples = runs.min(MOST);
-    let progress = Progress::of(samples, "runs");
+    let samples = runs.min(MAX_MEASURED);
+    let progress = CommandProgress::of(samples, "runs");
     let (mut measured, mut bytes, mut logs) = (0_u64, 0_u64, 0_u64);
     let begin = Instant::now();
     for i in 0..samples {
         // the first, then further and further apart, so that an early end leaves no part of the sweep out
         let row = rows.start + (i * 2_654_435_761) % samples * runs / samples;
-        let Ran::Row(row) = one::run(plan, row, keep, folder.path())? else {
+        let Ran::Row(row) = one::run(study, row, keep, folder.path())? else {
             drop(progress);
             say(format!("stopped with {measured} of {samples} runs measured\nNothing is kept; start again."));
             return Ok(Outcome::Stopped);
@@ -65,9 +65,9 @@ pub fn estimate(
     data.line(format!("{all:.0} s of one processor, {:.0} s with {jobs} jobs", all / jobs as f64))?;
     let logs = if keep == Keep::None { String::new() } else { format!(", and {:.0} bytes of logs", of_all(logs)) };
     data.line(format!("{:.0} bytes of rows{logs}", of_all(bytes)))?;
-    let shards = (one * plan.runs() as f64 / SHARD).ceil();
+    let shards = (one * study.runs() as f64 / SHARD).ceil();
     let name = if shards == 1.0 { "shard" } else { "shards" };
-    let of = if shard == Shard::WHOLE { String::new() } else { format!(" of all {} runs", plan.runs()) };
+    let of = if shard == Shard::WHOLE { String::new() } else { format!(" of all {} runs", study.runs()) };
     data.line(format!("{shards:.0} {name}{of} of ten minutes with one job each"))?;
     Ok(Outcome::Done)
 }

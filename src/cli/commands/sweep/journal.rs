@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use motion_lab::batch::{Column, PartHead, PartWriter, sealed_line, unsealed_line};
 
 use crate::cli::Failure;
-use crate::cli::support::output::PendingFile;
+use crate::cli::support::output::ReportedFile;
 
 /// The journal of a shard. A row that it holds need not be run again, also after a crash.
 pub struct Journal {
@@ -40,14 +40,14 @@ impl Journal {
         let mut journal = Journal { path: path.to_owned(), file, head, end: 0, places: vec![0; count] };
         journal.read(columns).map_err(failed)?.map_err(|()| {
             Failure::input(
-                format!("{}: it is of another plan", path.display()),
+                format!("{}: it is of another study", path.display()),
                 "Name another folder with -o, or take the journal away.",
             )
         })?;
         Ok(journal)
     }
 
-    /// Reads what is there. `Err(())` for the journal of another plan.
+    /// Reads what is there. `Err(())` for the journal of another study.
     fn read(&mut self, columns: &[Column]) -> io::Result<Result<(), ()>> {
         let head = self.head.to_text(columns);
         let mut there = Vec::new();
@@ -128,7 +128,7 @@ impl Journal {
         if self.places.contains(&0) {
             return Err(failed(ErrorKind::UnexpectedEof.into()));
         }
-        let mut writer = PartWriter::new(PendingFile::create(part)?, &self.head, columns).map_err(failed)?;
+        let mut writer = PartWriter::new(ReportedFile::create(part)?, &self.head, columns).map_err(failed)?;
         let mut written = Ok(());
         self.each(|line| {
             if written.is_ok() {
@@ -145,26 +145,26 @@ impl Journal {
 
 #[cfg(test)]
 mod tests {
-    use motion_lab::batch::{PlanFile, SweepPlan};
+    use motion_lab::batch::{Study, StudyFile};
     use motion_lab::worlds::World;
 
     use super::*;
 
-    fn plan() -> SweepPlan {
+    fn study() -> Study {
         let text = "Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 4))])";
         let worlds = [("lot".to_owned(), World::lot())].into();
-        PlanFile::parse("plan.ron", text).unwrap().with(&worlds, &[].into()).unwrap()
+        StudyFile::parse("study.ron", text).unwrap().with(&worlds, &[].into()).unwrap()
     }
 
     /// A line that a crash cut short must go, or the next crash would lose what came after it.
     #[test]
     fn a_journal_goes_on_after_every_crash() {
-        let (plan, folder) = (plan(), tempfile::tempdir().unwrap());
+        let (study, folder) = (study(), tempfile::tempdir().unwrap());
         let path = folder.path().join("part.journal");
-        let open = || Journal::open(&path, PartHead::new(&plan, 1..4), plan.columns());
+        let open = || Journal::open(&path, PartHead::new(&study, 1..4), study.columns());
         for (row, missing) in [(2, vec![1, 3]), (3, vec![1]), (1, vec![])] {
             let mut journal = open().unwrap();
-            journal.add(row, &plan.failed(row, "why").to_line()).unwrap();
+            journal.add(row, &study.failed(row, "why").to_line()).unwrap();
             assert_eq!(journal.missing(), missing);
             drop(journal);
             let mut file = OpenOptions::new().append(true).open(&path).unwrap();
@@ -175,7 +175,7 @@ mod tests {
         let held = open().unwrap();
         let second = open().err().map(|failure| failure.to_string()).unwrap_or_default();
         assert!(second.contains("another process is at work"), "{second}");
-        held.finish(&folder.path().join("part.sweep"), plan.columns()).unwrap();
+        held.finish(&folder.path().join("part.sweep"), study.columns()).unwrap();
         assert!(!path.exists() && folder.path().join("part.sweep").exists());
     }
 }

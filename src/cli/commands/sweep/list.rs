@@ -1,29 +1,29 @@
-//! What a plan would run, a line for each run.
+//! What a study would run, a line for each run.
 
-use motion_lab::batch::{RunRow, Shard, SweepPlan};
+use motion_lab::batch::{RunRow, Shard, Study};
 
 use crate::cli::support::console::note;
 use crate::cli::{Data, Failure, Outcome};
 
 /// Lists the runs of a shard as comma-separated values: the parameters, and why a run can't be.
-pub fn list(plan: &SweepPlan, shard: Shard, data: &mut Data) -> Result<Outcome, Failure> {
-    let columns = plan.columns();
+pub fn list(study: &Study, shard: Shard, data: &mut Data) -> Result<Outcome, Failure> {
+    let columns = study.columns();
     let width = columns.iter().position(|column| column.name == "failure").map_or(columns.len(), |at| at + 1);
     let names: Vec<&str> = columns[..width].iter().map(|column| column.name.as_str()).collect();
     data.data_line(names.join(","))?;
     let mut wrong = 0;
-    for row in shard.rows(plan.runs()) {
+    for row in shard.rows(study.runs()) {
         if data.is_closed() {
             break;
         }
-        let reason = plan.setup(row).err();
+        let reason = study.setup(row).err();
         wrong += u64::from(reason.is_some());
-        let cells = plan.failed(row, &reason.unwrap_or_default()).cells.into_iter().take(width).collect();
+        let cells = study.failed(row, &reason.unwrap_or_default()).cells.into_iter().take(width).collect();
         data.data_line(RunRow { row, cells }.to_line())?;
     }
-    let axes = plan.axes().map(|(name, len)| len.map_or_else(|| name.clone(), |len| format!("{name} ({len})")));
+    let axes = study.axes().map(|(name, len)| len.map_or_else(|| name.clone(), |len| format!("{name} ({len})")));
     let axes = axes.collect::<Vec<_>>().join(", ");
     let axes = if axes.is_empty() { "nothing".to_owned() } else { axes };
-    note(format!("{} runs, varying {axes}; {wrong} of those listed can't be run", plan.runs()));
+    note(format!("{} runs, varying {axes}; {wrong} of those listed can't be run", study.runs()));
     Ok(Outcome::Done)
 }

@@ -1,9 +1,9 @@
-//! A plan with all it names, from files.
+//! A study with all it names, from files.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use motion_lab::batch::{PlanFile, SweepPlan, SweepPlanError};
+use motion_lab::batch::{Study, StudyError, StudyFile};
 
 use super::planned::named;
 use crate::cli::Failure;
@@ -11,11 +11,11 @@ use crate::cli::support::input::{read_text, shown};
 use crate::cli::support::words::parse_script;
 use crate::cli::support::world_source::find_world_beside;
 
-/// The plan in a file. Files that it names lie where it says, seen from its own folder.
-pub fn plan(path: &Path) -> Result<SweepPlan, Failure> {
+/// The study in a file. Files that it names lie where it says, seen from its own folder.
+pub fn study(path: &Path) -> Result<Study, Failure> {
     let refused =
-        |error: SweepPlanError| Failure::input(error, "Correct it there. docs/sweeps.md says what a plan may hold.");
-    let file = PlanFile::parse(&shown(path), &read_text(path)?).map_err(refused)?;
+        |error: StudyError| Failure::input(error, "Correct it there. docs/sweeps.md says what a study may hold.");
+    let file = StudyFile::parse(&shown(path), &read_text(path)?).map_err(refused)?;
     let named_at = |name: &str, failure| match failure {
         Failure::Input { reason, next } => {
             Failure::Input { reason: format!("{}: {reason}", file.place_of(name)), next }

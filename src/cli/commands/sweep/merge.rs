@@ -6,18 +6,18 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::batch::{PartError, PartReader, RunRow, SweepPlan, TableError, TableWriter};
+use motion_lab::batch::{PartError, PartReader, RunRow, Study, TableError, TableWriter};
 
 use crate::cli::support::input::{open, unreadable};
-use crate::cli::support::output::PendingFile;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::output::ReportedFile;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome};
 
 /// Make one table of a sweep's parts, if they hold every row.
 ///
 /// Parts of any sharding go together; a row that several hold must be the same in all. Nothing is written where rows
-/// are missing, which are listed, or where parts are of different plans. Without an output it only checks.
+/// are missing, which are listed, or where parts are of different studies. Without an output it only checks.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -27,7 +27,7 @@ pub struct Merge {
     /// Parts, or folders of parts.
     #[arg(required = true, value_name = "PART|FOLDER")]
     parts: Vec<PathBuf>,
-    /// The table to write: .parquet, which holds its plan and units, or .csv. May be given for each.
+    /// The table to write: .parquet, which holds its study and units, or .csv. May be given for each.
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
 }
@@ -35,7 +35,7 @@ pub struct Merge {
 /// The failure of a part that can't be read.
 pub fn refused(part: &Path, error: &PartError) -> Failure {
     let next = match error {
-        PartError::Plan(_) => "Use the version of motion-lab that wrote it.",
+        PartError::Study(_) => "Use the version of motion-lab that wrote it.",
         PartError::NotAPart => {
             "Name a part, or a folder of parts. A damaged part is taken away and its shard run again."
         }
@@ -67,17 +67,17 @@ fn found(paths: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// A part, opened.
-struct Opened {
+struct OpenedPart {
     path: PathBuf,
     reader: PartReader<BufReader<File>>,
     /// The next row.
     row: Option<(RunRow, String)>,
 }
 
-impl Opened {
+impl OpenedPart {
     fn open(path: &Path) -> Result<Self, Failure> {
         let reader = PartReader::new(BufReader::new(open(path)?)).map_err(|error| refused(path, &error))?;
-        Ok(Opened { path: path.to_owned(), reader, row: None })
+        Ok(OpenedPart { path: path.to_owned(), reader, row: None })
     }
 
     /// Reads it to its end, which proves its bytes.
@@ -93,20 +93,20 @@ impl Opened {
 
 /// An output.
 enum Output {
-    Csv(PendingFile, PathBuf),
-    Parquet(Box<TableWriter<PendingFile>>, PathBuf),
+    Csv(ReportedFile, PathBuf),
+    Parquet(Box<TableWriter<ReportedFile>>, PathBuf),
 }
 
 impl Output {
-    fn begin(path: &Path, plan: &SweepPlan) -> Result<Self, Failure> {
+    fn begin(path: &Path, study: &Study) -> Result<Self, Failure> {
         match path.extension().and_then(|ending| ending.to_str()) {
             Some("csv") => {
-                let mut file = PendingFile::create(path)?;
-                writeln!(file, "{}", plan.heading()).map_err(|error| Failure::output(path, &error))?;
+                let mut file = ReportedFile::create(path)?;
+                writeln!(file, "{}", study.heading()).map_err(|error| Failure::output(path, &error))?;
                 Ok(Output::Csv(file, path.to_owned()))
             }
             Some("parquet") => {
-                let table = TableWriter::new(PendingFile::create(path)?, plan);
+                let table = TableWriter::new(ReportedFile::create(path)?, study);
                 Ok(Output::Parquet(Box::new(table.map_err(|error| unwritten(path, error))?), path.to_owned()))
             }
             _ => Err(Failure::usage(
@@ -140,42 +140,42 @@ impl Merge {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let paths = found(&self.parts)?;
         let mut parts = Vec::with_capacity(paths.len());
-        let mut plan: Option<(SweepPlan, PathBuf)> = None;
+        let mut study: Option<(Study, PathBuf)> = None;
         for path in paths {
-            let reader = Opened::open(&path)?.reader;
-            let (plan, first) = plan.get_or_insert_with(|| (reader.plan().clone(), path.clone()));
-            if plan.line() != reader.head().plan {
-                // a damaged plan looks like another one
+            let reader = OpenedPart::open(&path)?.reader;
+            let (study, first) = study.get_or_insert_with(|| (reader.study().clone(), path.clone()));
+            if study.line() != reader.head().study {
+                // a damaged study looks like another one
                 for path in [&*first, &path] {
-                    Opened::open(path)?.prove()?;
+                    OpenedPart::open(path)?.prove()?;
                 }
                 return Err(Failure::input(
                     format!(
-                        "{}: it is of another plan ({}) than {} ({})",
+                        "{}: it is of another study ({}) than {} ({})",
                         path.display(),
-                        reader.plan().digest(),
+                        reader.study().digest(),
                         first.display(),
-                        plan.digest()
+                        study.digest()
                     ),
-                    "Merge the parts of one plan only.",
+                    "Merge the parts of one study only.",
                 ));
             }
             parts.push((reader.head().rows.clone(), path));
         }
-        let Some((plan, _)) = plan else {
+        let Some((study, _)) = study else {
             return Err(Failure::input("there are no parts", "Name parts, or folders with files that end in .sweep."));
         };
         parts.sort_by(|(a, pa), (b, pb)| (a.start, b.end, pa).cmp(&(b.start, a.end, pb)));
         check_outputs(&self.output)?;
         let targets = self.output.iter().map(|path| Target::file(path)).collect::<Result<Vec<_>, _>>()?;
-        let mut outputs = self.output.iter().map(|path| Output::begin(path, &plan)).collect::<Result<Vec<_>, _>>()?;
-        let progress = Progress::of(plan.runs(), "rows");
+        let mut outputs = self.output.iter().map(|path| Output::begin(path, &study)).collect::<Result<Vec<_>, _>>()?;
+        let progress = CommandProgress::of(study.runs(), "rows");
         let mut waiting = parts.into_iter().peekable();
-        let mut at_work: Vec<Opened> = Vec::new();
+        let mut at_work: Vec<OpenedPart> = Vec::new();
         let (mut missing, mut failures): (Vec<Range<u64>>, u64) = (Vec::new(), 0);
-        for next in 0..plan.runs() {
+        for next in 0..study.runs() {
             while let Some((_, path)) = waiting.next_if(|(rows, _)| rows.start <= next) {
-                let mut opened = Opened::open(&path)?;
+                let mut opened = OpenedPart::open(&path)?;
                 opened.advance()?;
                 at_work.push(opened);
             }
@@ -201,7 +201,7 @@ impl Merge {
                     _ => missing.push(next..next + 1),
                 },
                 Some((row, line, _)) => {
-                    failures += u64::from(row.is_failure(plan.columns()));
+                    failures += u64::from(row.is_failure(study.columns()));
                     outputs.iter_mut().try_for_each(|output| output.row(&row, &line))?;
                 }
             }
@@ -213,11 +213,11 @@ impl Merge {
             data.flush()?;
             let count: u64 = missing.iter().map(|range| range.end - range.start).sum();
             return Err(Failure::input(
-                format!("{count} of {} rows are missing: the ranges above, without their ends", plan.runs()),
+                format!("{count} of {} rows are missing: the ranges above, without their ends", study.runs()),
                 "Run the shards that are not finished; nothing was written.",
             ));
         }
-        data.line(format!("{} rows, {failures} failed, plan {}", plan.runs(), plan.digest()))?;
+        data.line(format!("{} rows, {failures} failed, study {}", study.runs(), study.digest()))?;
         outputs.into_iter().try_for_each(Output::finish)?;
         targets.iter().for_each(Target::wrote);
         Ok(Outcome::Done)

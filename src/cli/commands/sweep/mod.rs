@@ -1,4 +1,4 @@
-//! `sweep`: many runs by a plan, here or in shards on many machines, and their rows as one table.
+//! `sweep`: many runs by a study, here or in shards on many machines, and their rows as one table.
 
 mod estimate;
 mod journal;
@@ -22,10 +22,10 @@ use report::Report;
 use reproduce::Reproduce;
 use shards::ShardChoice;
 
-/// Run a plan's runs, a row for each: what was varied, where robots ended, contacts, clearance, path, digest.
+/// Run a study's runs, a row for each: what was varied, where robots ended, contacts, clearance, path, digest.
 ///
-/// A plan names worlds, scripts, tours or a planner, and the axes to vary: seeds, starts, sizes, sensors, noise,
-/// generated worlds, ticks. A row depends on the plan and its number alone, so any number of jobs and shards gives the
+/// A study names worlds, scripts, tours or a planner, and the axes to vary: seeds, starts, sizes, sensors, noise,
+/// generated worlds, ticks. A row depends on the study and its number alone, so any number of jobs and shards gives the
 /// same bytes. Rows are kept as they are made: after Ctrl-C or a crash the same command goes on. `sweep merge` makes
 /// one table of them.
 #[derive(Debug, Args)]
@@ -34,19 +34,19 @@ use shards::ShardChoice;
     subcommand_negates_reqs = true,
     after_help = "\
 Examples:
-  motion-lab sweep plan.ron --check
-  motion-lab sweep plan.ron --estimate
-  motion-lab sweep plan.ron --jobs 4 -o runs/noise
-  motion-lab sweep plan.ron --shard 3/8 -o runs/noise
+  motion-lab sweep study.ron --check
+  motion-lab sweep study.ron --estimate
+  motion-lab sweep study.ron --jobs 4 -o runs/noise
+  motion-lab sweep study.ron --shard 3/8 -o runs/noise
   motion-lab sweep merge runs/noise -o noise.parquet -o noise.csv"
 )]
 pub struct SweepArgs {
     #[command(subcommand)]
     command: Option<SweepCommand>,
-    /// The plan.
-    #[arg(required = true, value_name = "PLAN")]
-    plan: Option<PathBuf>,
-    /// The folder of the parts. [default: the plan's name with .sweep for its ending]
+    /// The study.
+    #[arg(required = true, value_name = "STUDY")]
+    study: Option<PathBuf>,
+    /// The folder of the parts. [default: the study's name with .sweep for its ending]
     #[arg(short, long, value_name = "FOLDER")]
     output: Option<PathBuf>,
     /// How many runs at once, at most 256. It changes no bit. [default: one for each processor]
@@ -90,29 +90,29 @@ enum SweepCommand {
 impl SweepArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        match (self.command, self.plan) {
+        match (self.command, self.study) {
             (Some(SweepCommand::Merge(merge)), _) => merge.run(data),
             (Some(SweepCommand::Report(report)), _) => report.run(data),
             (Some(SweepCommand::Reproduce(reproduce)), _) => reproduce.run(data),
-            (None, None) => Err(Failure::usage("no plan", "Name a plan: motion-lab sweep PLAN.")),
+            (None, None) => Err(Failure::usage("no study", "Name a study: motion-lab sweep STUDY.")),
             (None, Some(file)) => {
-                let plan = load::plan(&file)?;
+                let study = load::study(&file)?;
                 let shard = ShardChoice::shard(self.shard)?;
                 if self.check {
-                    return list::list(&plan, shard, data);
+                    return list::list(&study, shard, data);
                 }
                 let jobs = self.jobs.map(usize::from);
                 if self.estimate {
-                    return estimate::estimate(&plan, shard, jobs, self.keep, data);
+                    return estimate::estimate(&study, shard, jobs, self.keep, data);
                 }
                 let folder = self.output.unwrap_or_else(|| default_folder(&file));
-                shard::run(&plan, shard, &folder, jobs, self.keep, data)
+                shard::run(&study, shard, &folder, jobs, self.keep, data)
             }
         }
     }
 }
 
-/// The folder of a plan's parts where nobody names one.
-fn default_folder(plan: &Path) -> PathBuf {
-    plan.with_extension("sweep")
+/// The folder of a study's parts where nobody names one.
+fn default_folder(study: &Path) -> PathBuf {
+    study.with_extension("sweep")
 }

@@ -3,13 +3,13 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::batch::{RowGatherer, RunRow, SweepPlan};
+use motion_lab::batch::{RowGatherer, RunRow, Study};
 use motion_lab::run::LogKind;
 
 use super::Keep;
-use super::planned::{Made, made};
+use super::planned::{PlannedInputs, made};
 use crate::cli::Failure;
-use crate::cli::commands::record::{self, Ended, Stop, partial_name, write_run, write_run_watched};
+use crate::cli::commands::record::{self, Ended, StopRule, partial_name, write_run, write_run_watched};
 
 /// How a run of a sweep ended.
 pub enum Ran {
@@ -20,7 +20,7 @@ pub enum Ran {
 }
 
 /// Nobody watches the ticks of one run among many.
-const STOP: Stop = Stop { after: None, unwatched: true, at_refusal: false };
+const STOP: StopRule = StopRule { after: None, unwatched: true, at_refusal: false };
 
 /// The log of a row in a folder.
 pub fn log_name(logs: &Path, row: u64) -> PathBuf {
@@ -28,22 +28,24 @@ pub fn log_name(logs: &Path, row: u64) -> PathBuf {
 }
 
 /// Runs a row. Its full log goes into the folder `logs` if it is one of those to keep.
-pub fn run(plan: &SweepPlan, row: u64, keep: Keep, logs: &Path) -> Result<Ran, Failure> {
-    let made = match plan.setup(row) {
+pub fn run(study: &Study, row: u64, keep: Keep, logs: &Path) -> Result<Ran, Failure> {
+    let made = match study.setup(row) {
         Ok(setup) => made(setup),
-        Err(reason) => return Ok(Ran::Row(plan.failed(row, &reason))),
+        Err(reason) => return Ok(Ran::Row(study.failed(row, &reason))),
     };
     let (run, planned) = match made {
-        Made::Run(run, planned) => (run, planned),
-        Made::None(reason, planned) => return Ok(Ran::Row(plan.with_planned(plan.failed(row, &reason), &planned))),
-        Made::Stopped => return Ok(Ran::Stopped),
+        PlannedInputs::Run(run, planned) => (run, planned),
+        PlannedInputs::None(reason, planned) => {
+            return Ok(Ran::Row(study.with_planned(study.failed(row, &reason), &planned)));
+        }
+        PlannedInputs::Stopped => return Ok(Ran::Stopped),
     };
     let with_planned = |row| match &planned {
-        Some(planned) => plan.with_planned(row, planned),
+        Some(planned) => study.with_planned(row, planned),
         None => row,
     };
     let log = log_name(logs, row);
-    let mut gatherer = RowGatherer::new(plan, row, &run.config, &run.script);
+    let mut gatherer = RowGatherer::new(study, row, &run.config, &run.script);
     let ended = match keep {
         Keep::All => write_run_watched(&run, LogKind::Frames, None, STOP, &log, |frame| gatherer.see(frame)),
         _ => record::run(&run, STOP, |frame| gatherer.see(frame)),
@@ -52,11 +54,11 @@ pub fn run(plan: &SweepPlan, row: u64, keep: Keep, logs: &Path) -> Result<Ran, F
         Ok(Ended::Whole { last, digest, refusals }) => with_planned(gatherer.row(&last, digest, &refusals)),
         Ok(Ended::Stopped(_) | Ended::Differs(_)) => return Ok(stopped(&log)),
         // a script or a start that the run does not take
-        Err(Failure::Input { reason, .. }) => return Ok(Ran::Row(with_planned(plan.failed(row, &reason)))),
+        Err(Failure::Input { reason, .. }) => return Ok(Ran::Row(with_planned(study.failed(row, &reason)))),
         Err(failure) => return Err(failure),
     };
     // few runs are kept, and only their rows say which: these are run once more
-    if lacks_log(plan, &row, keep, logs) && !log_again(plan, row.row, logs)? {
+    if lacks_log(study, &row, keep, logs) && !log_again(study, row.row, logs)? {
         return Ok(Ran::Stopped);
     }
     Ok(Ran::Row(row))
@@ -64,14 +66,14 @@ pub fn run(plan: &SweepPlan, row: u64, keep: Keep, logs: &Path) -> Result<Ran, F
 
 /// Writes the full log of a row that was run before, if it is one of those to keep and not there yet. `false` where
 /// somebody asked to stop.
-pub fn log_again(plan: &SweepPlan, row: u64, logs: &Path) -> Result<bool, Failure> {
+pub fn log_again(study: &Study, row: u64, logs: &Path) -> Result<bool, Failure> {
     let log = log_name(logs, row);
     // a row that could be run once can be again
-    let Ok(setup) = plan.setup(row) else { return Ok(true) };
+    let Ok(setup) = study.setup(row) else { return Ok(true) };
     let run = match made(setup) {
-        Made::Run(run, _) => run,
-        Made::None(..) => return Ok(true),
-        Made::Stopped => return Ok(false),
+        PlannedInputs::Run(run, _) => run,
+        PlannedInputs::None(..) => return Ok(true),
+        PlannedInputs::Stopped => return Ok(false),
     };
     let is_whole = matches!(write_run(&run, LogKind::Frames, None, STOP, &log)?, Ended::Whole { .. });
     if !is_whole {
@@ -81,14 +83,14 @@ pub fn log_again(plan: &SweepPlan, row: u64, logs: &Path) -> Result<bool, Failur
 }
 
 /// Whether the full log of this row is to be kept and is not there.
-pub fn lacks_log(plan: &SweepPlan, row: &RunRow, keep: Keep, logs: &Path) -> bool {
+pub fn lacks_log(study: &Study, row: &RunRow, keep: Keep, logs: &Path) -> bool {
     let is_kept = match keep {
         Keep::None => false,
-        Keep::Contacts => row.has_contacts(plan.columns()),
-        Keep::Failures => row.is_failure(plan.columns()),
+        Keep::Contacts => row.has_contacts(study.columns()),
+        Keep::Failures => row.is_failure(study.columns()),
         Keep::All => true,
     };
-    row.could_run(plan.columns()) && is_kept && !log_name(logs, row.row).exists()
+    row.could_run(study.columns()) && is_kept && !log_name(logs, row.row).exists()
 }
 
 /// The same command runs a stopped row again, so that the beginning of its log is of no use.

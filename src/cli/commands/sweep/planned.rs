@@ -1,8 +1,8 @@
 //! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
 
-use motion_lab::batch::{Planned, PlannedPath, Planning, RunInputs, RunSetup};
+use motion_lab::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunSetup};
 use motion_lab::planning::{Bounds, Effort, NoPath};
-use motion_lab::plans::{Attempt, PathLengths, PlannerName, Task};
+use motion_lab::plans::{PathLengths, PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 use motion_lab::robots::AnyRobot;
 use motion_lab::run::{Recipe, Script, seconds};
@@ -15,11 +15,11 @@ use crate::cli::support::interrupt;
 const ROUND: u64 = 500;
 
 /// What became of a run's inputs.
-pub enum Made {
+pub enum PlannedInputs {
     /// They are there; with what came of planning, where a planner made them.
-    Run(Box<Recipe>, Option<Planned>),
+    Run(Box<Recipe>, Option<PlanningResult>),
     /// There are none, for this reason.
-    None(String, Planned),
+    None(String, PlanningResult),
     /// Somebody asked to stop.
     Stopped,
 }
@@ -45,31 +45,36 @@ impl From<NoPath> for Why {
 }
 
 /// The run of a row.
-pub fn made(setup: RunSetup) -> Made {
+pub fn made(setup: RunSetup) -> PlannedInputs {
     let RunSetup { seed, config, inputs } = setup;
     let (script, planned) = match inputs {
         RunInputs::Script(script) => (script, None),
         RunInputs::Planner(planning) => {
-            let mut planned = Planned::default();
+            let mut planned = PlanningResult::default();
             match planned_script(&config, seed, &planning, &mut planned) {
                 Ok(script) => (script, Some(planned)),
-                Err(Why::NoPath(reason)) => return Made::None(reason, planned),
-                Err(Why::Stopped) => return Made::Stopped,
+                Err(Why::NoPath(reason)) => return PlannedInputs::None(reason, planned),
+                Err(Why::Stopped) => return PlannedInputs::Stopped,
             }
         }
     };
-    Made::Run(Box::new(Recipe::new(config, (seed, script))), planned)
+    PlannedInputs::Run(Box::new(Recipe::new(config, (seed, script))), planned)
 }
 
 /// The script that plays the path of the run's only robot. What comes of planning goes to `planned`, as far as it gets.
-fn planned_script(config: &TourConfig, seed: Seed, planning: &Planning, planned: &mut Planned) -> Result<Script, Why> {
+fn planned_script(
+    config: &TourConfig,
+    seed: Seed,
+    planning: &Planning,
+    planned: &mut PlanningResult,
+) -> Result<Script, Why> {
     let world = config.worlds.iter().find(|world| !world.robots.is_empty());
     let world = world.ok_or_else(|| "no robot takes part in this run".to_owned())?;
     let (task, name) = task(world, planning)?;
     let mut attempt = task.attempt(name, seed)?;
     let solved = solve(attempt.as_mut(), planning.iterations.unwrap_or(name.iterations()));
     let Effort { iterations, edges, .. } = attempt.effort();
-    *planned = Planned { iterations, edges, path: None };
+    *planned = PlanningResult { iterations, edges, path: None };
     solved?;
     let PathLengths { length, clearance } = attempt.lengths();
     let path = PlannedPath { length, clearance, time: None };
@@ -109,7 +114,7 @@ pub fn named(name: &str) -> Result<PlannerName, String> {
 }
 
 /// Works on a path until it is there, there will be none, or somebody asks to stop.
-fn solve(attempt: &mut dyn Attempt, iterations: u64) -> Result<(), Why> {
+fn solve(attempt: &mut dyn PlanAttempt, iterations: u64) -> Result<(), Why> {
     let mut bound = 0;
     loop {
         bound = iterations.min(bound + ROUND);

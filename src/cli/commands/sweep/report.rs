@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::batch::{Cell, CellKind, Column, RunInputs, RunRow, SweepPlan, TableError, TableFile};
+use motion_lab::batch::{CellKind, Column, RowValue, RunInputs, RunRow, Study, TableError, TableFile};
 use motion_lab::capture::{Captured, Distribution, Paper, histograms};
 use motion_lab::run::Recipe;
 use motion_lab::web::Link;
@@ -62,7 +62,7 @@ const SHOWN: [&str; 12] = [
 
 /// What a report is made of.
 struct Gathered {
-    plan: SweepPlan,
+    study: Study,
     rows: u64,
     failed: u64,
     distributions: Vec<Distribution>,
@@ -73,10 +73,10 @@ struct Gathered {
 }
 
 /// The number in a cell.
-fn number(cell: Option<&Cell>) -> Option<f64> {
+fn number(cell: Option<&RowValue>) -> Option<f64> {
     match cell {
-        Some(Cell::Whole(n)) => Some(*n as f64),
-        Some(Cell::Number(x)) => Some(*x),
+        Some(RowValue::Whole(n)) => Some(*n as f64),
+        Some(RowValue::Number(x)) => Some(*x),
         _ => None,
     }
 }
@@ -97,7 +97,7 @@ fn parts_of(column: &Column) -> (&str, Option<&str>) {
     (name.unwrap_or(&column.name), unit)
 }
 
-/// What a parameter is, called as the plan calls it, with its unit.
+/// What a parameter is, called as the study calls it, with its unit.
 fn parameter_title(column: &Column) -> String {
     let (name, unit) = parts_of(column);
     unit.map_or_else(|| name.to_owned(), |unit| format!("{name}, {unit}"))
@@ -111,8 +111,8 @@ fn title(column: &Column) -> String {
 }
 
 /// The link that shows the run of a row in a browser and compares its digest; else why none can.
-fn link(plan: &SweepPlan, row: u64, digest: &str, site: &str) -> Result<String, String> {
-    let setup = plan.setup(row)?;
+fn link(study: &Study, row: u64, digest: &str, site: &str) -> Result<String, String> {
+    let setup = study.setup(row)?;
     let RunInputs::Script(script) = setup.inputs else { return Err("a planner makes its script".into()) };
     let recipe = Recipe::new(setup.config, (setup.seed, script));
     let link = Link::of(&recipe).map_err(|error| error.to_string())?;
@@ -124,7 +124,7 @@ impl Gathered {
     fn of(file: &Path) -> Result<Self, Failure> {
         if file.extension().is_some_and(|ending| ending == "csv") {
             return Err(Failure::input(
-                format!("{}: a table of comma-separated values does not hold its plan", file.display()),
+                format!("{}: a table of comma-separated values does not hold its study", file.display()),
                 "Name the table that ends in .parquet; `sweep merge` writes both.",
             ));
         }
@@ -135,8 +135,8 @@ impl Gathered {
             )
         };
         let table = TableFile::open(open(file)?).map_err(refused)?;
-        let plan = table.plan().clone();
-        let columns = plan.columns();
+        let study = table.study().clone();
+        let columns = study.columns();
         let shown: Vec<&Column> = columns.iter().filter(|column| SHOWN.contains(&column.name.as_str())).collect();
         let mut distributions: Vec<Distribution> =
             shown.iter().map(|column| Distribution { name: title(column), values: Vec::new() }).collect();
@@ -172,17 +172,17 @@ impl Gathered {
                 }
             })
             .map_err(refused)?;
-        Ok(Gathered { plan, rows, failed, distributions, worst, failures })
+        Ok(Gathered { study, rows, failed, distributions, worst, failures })
     }
 
     fn figure(&self) -> Captured {
-        let digest = self.plan.digest().to_string();
-        histograms(&format!("{} runs of a sweep", self.rows), &self.distributions, vec![("Plan", digest)])
+        let digest = self.study.digest().to_string();
+        histograms(&format!("{} runs of a sweep", self.rows), &self.distributions, vec![("Study", digest)])
     }
 
     /// The page. It has no colours of its own but those of its figure.
     fn page(&self, file: &Path, figure: &str, site: &str) -> String {
-        let Gathered { plan, rows, failed, worst, failures, .. } = self;
+        let Gathered { study, rows, failed, worst, failures, .. } = self;
         let name = escaped(&file.display().to_string());
         let mut page = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}: {rows} runs</title>\n\
@@ -190,10 +190,10 @@ impl Gathered {
              :root {{ color-scheme: light dark; font-family: sans-serif; }}\nbody {{ margin: 1rem auto; max-width: 80rem; }}\n\
              svg {{ max-width: 100%; height: auto; }}\n.wide {{ overflow-x: auto; }}\n\
              td, th {{ padding: 0.2rem 0.6rem; text-align: left; vertical-align: top; }}\n</style>\n</head>\n<body>\n\
-             <h1>{name}</h1>\n<p>{rows} runs, {failed} of them failed. Plan {}.</p>\n",
-            plan.digest()
+             <h1>{name}</h1>\n<p>{rows} runs, {failed} of them failed. Study {}.</p>\n",
+            study.digest()
         );
-        let axes = plan.axes().map(|(axis, len)| match len {
+        let axes = study.axes().map(|(axis, len)| match len {
             Some(1) => format!("{} (1 value)", escaped(&axis)),
             Some(len) => format!("{} ({len} values)", escaped(&axis)),
             None => escaped(&axis),
@@ -209,7 +209,7 @@ impl Gathered {
 
     /// A table of runs: their parameters, results of the whole run, and the command and the link that show each.
     fn list(&self, page: &mut String, heading: &str, rows: &[RunRow], (file, site): (&Path, &str)) {
-        let columns = self.plan.columns();
+        let columns = self.study.columns();
         let shown = columns.iter().position(|column| column.name == "digest").unwrap_or(columns.len());
         let _ = writeln!(page, "<h2>{heading}</h2>");
         if rows.is_empty() {
@@ -227,17 +227,17 @@ impl Gathered {
             page.push_str("<tr>");
             for (cell, column) in row.cells.iter().zip(&columns[..shown]) {
                 let text = match (cell, column.kind) {
-                    (Cell::Empty, _) => String::new(),
-                    (Cell::Whole(n), _) => n.to_string(),
-                    (Cell::Number(x), CellKind::Number) => rounded(*x),
-                    (Cell::Number(x), _) => x.to_string(),
-                    (Cell::Text(text), _) => escaped(text),
+                    (RowValue::Empty, _) => String::new(),
+                    (RowValue::Whole(n), _) => n.to_string(),
+                    (RowValue::Number(x), CellKind::Number) => rounded(*x),
+                    (RowValue::Number(x), _) => x.to_string(),
+                    (RowValue::Text(text), _) => escaped(text),
                 };
                 let _ = write!(page, "<td>{text}</td>");
             }
             let see = match row.cell(columns, "digest") {
-                Some(Cell::Text(digest)) => {
-                    let link = match link(&self.plan, row.row, digest, site) {
+                Some(RowValue::Text(digest)) => {
+                    let link = match link(&self.study, row.row, digest, site) {
                         Ok(link) => format!("<a href=\"{}\">run {}</a>", escaped(&link), row.row),
                         Err(reason) => format!("no link: {}", escaped(&reason)),
                     };

@@ -4,13 +4,13 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::batch::{Cell, PartError, PartReader, RunRow, SweepPlan, TableError, TableFile};
+use motion_lab::batch::{PartError, PartReader, RowValue, RunRow, Study, TableError, TableFile};
 use motion_lab::run::LogKind;
 
 use super::merge;
 use super::one::{log_name, remove_partial};
-use super::planned::{Made, made};
-use crate::cli::commands::record::{Ended, Stop, write_run};
+use super::planned::{PlannedInputs, made};
+use crate::cli::commands::record::{Ended, StopRule, write_run};
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
 use crate::cli::support::target::Target;
@@ -18,7 +18,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 
 /// Run a row of a sweep once more, write its full log, and compare its digest with the row's.
 ///
-/// The table (.parquet) or a part holds the plan and all it names, so nothing else is needed.
+/// The table (.parquet) or a part holds the study and all it names, so nothing else is needed.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -36,8 +36,8 @@ pub struct Reproduce {
     output: Option<PathBuf>,
 }
 
-/// The plan and a row of a table or a part.
-fn find(file: &Path, number: u64) -> Result<(SweepPlan, RunRow), Failure> {
+/// The study and a row of a table or a part.
+fn find(file: &Path, number: u64) -> Result<(Study, RunRow), Failure> {
     let no_row = |error: TableError| {
         let next = match &error {
             TableError::NoRow { .. } => "Give the number of a row that is there.",
@@ -49,10 +49,10 @@ fn find(file: &Path, number: u64) -> Result<(SweepPlan, RunRow), Failure> {
         Some("parquet") => {
             let table = TableFile::open(open(file)?).map_err(no_row)?;
             let row = table.row(number).map_err(no_row)?;
-            Ok((table.plan().clone(), row))
+            Ok((table.study().clone(), row))
         }
         Some("csv") => Err(Failure::input(
-            format!("{}: a table of comma-separated values does not hold its plan", file.display()),
+            format!("{}: a table of comma-separated values does not hold its study", file.display()),
             "Name the table that ends in .parquet, or a part.",
         )),
         _ => {
@@ -64,7 +64,7 @@ fn find(file: &Path, number: u64) -> Result<(SweepPlan, RunRow), Failure> {
                 found = found.or((row.row == number).then_some(row));
             }
             if let Some(row) = found {
-                return Ok((reader.plan().clone(), row));
+                return Ok((reader.study().clone(), row));
             }
             Err(Failure::input(
                 format!("{}: it has rows {:?} and no row {number}", file.display(), reader.head().rows),
@@ -78,10 +78,10 @@ impl Reproduce {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         interrupt::listen()?;
-        let (plan, row) = find(&self.file, self.row)?;
-        let columns = plan.columns();
-        let Some(Cell::Text(expected)) = row.cell(columns, "digest").cloned() else {
-            let Some(Cell::Text(reason)) = row.cell(columns, "failure") else {
+        let (study, row) = find(&self.file, self.row)?;
+        let columns = study.columns();
+        let Some(RowValue::Text(expected)) = row.cell(columns, "digest").cloned() else {
+            let Some(RowValue::Text(reason)) = row.cell(columns, "failure") else {
                 return Err(Failure::input(
                     format!("{}: row {} has no digest", self.file.display(), self.row),
                     "Name a table that `sweep merge` wrote.",
@@ -100,14 +100,14 @@ impl Reproduce {
             say("stopped; nothing is kept, start again");
             Outcome::Stopped
         };
-        let run = match made(plan.setup(self.row).map_err(cannot)?) {
-            Made::Run(run, _) => run,
-            Made::None(reason, _) => return Err(cannot(reason)),
-            Made::Stopped => return Ok(stopped()),
+        let run = match made(study.setup(self.row).map_err(cannot)?) {
+            PlannedInputs::Run(run, _) => run,
+            PlannedInputs::None(reason, _) => return Err(cannot(reason)),
+            PlannedInputs::Stopped => return Ok(stopped()),
         };
         let output = self.output.unwrap_or_else(|| log_name(Path::new(""), self.row));
         let target = Target::file(&output)?;
-        let Ended::Whole { digest, .. } = write_run(&run, LogKind::Frames, None, Stop::default(), &output)? else {
+        let Ended::Whole { digest, .. } = write_run(&run, LogKind::Frames, None, StopRule::default(), &output)? else {
             remove_partial(&output);
             return Ok(stopped());
         };

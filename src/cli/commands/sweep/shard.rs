@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use motion_lab::batch::{PartHead, PartReader, RunRow, Shard, SweepPlan};
+use motion_lab::batch::{PartHead, PartReader, RunRow, Shard, Study};
 use rayon::prelude::*;
 
 use super::journal::Journal;
@@ -15,7 +15,7 @@ use super::{Keep, merge};
 use crate::cli::support::console::note;
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
-use crate::cli::support::progress::Progress;
+use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -26,7 +26,7 @@ pub fn pool(jobs: Option<usize>) -> Result<rayon::ThreadPool, Failure> {
 
 /// Runs the rows of a shard that are not there yet.
 pub fn run(
-    plan: &SweepPlan,
+    study: &Study,
     shard: Shard,
     folder: &Path,
     jobs: Option<usize>,
@@ -39,11 +39,11 @@ pub fn run(
     fs::create_dir_all(needed).map_err(|error| Failure::output(needed, &error))?;
     let part = folder.join(format!("part-{shard}.sweep"));
     if part.exists() {
-        return finished(plan, &part, jobs, (keep, &logs), data);
+        return finished(study, &part, jobs, (keep, &logs), data);
     }
-    let head = PartHead::new(plan, shard.rows(plan.runs()));
+    let head = PartHead::new(study, shard.rows(study.runs()));
     let count = head.rows.end - head.rows.start;
-    let journal = Journal::open(&folder.join(format!("part-{shard}.journal")), head, plan.columns())?;
+    let journal = Journal::open(&folder.join(format!("part-{shard}.journal")), head, study.columns())?;
     let missing = journal.missing();
     let before = count - missing.len() as u64;
     let pool = pool(jobs)?;
@@ -53,26 +53,26 @@ pub fn run(
     let mut without = Vec::new();
     if keep != Keep::None {
         journal.each(|line| {
-            let row = RunRow::of_line(line, plan.columns());
-            without.extend(row.filter(|row| one::lacks_log(plan, row, keep, &logs)).map(|row| row.row));
+            let row = RunRow::of_line(line, study.columns());
+            without.extend(row.filter(|row| one::lacks_log(study, row, keep, &logs)).map(|row| row.row));
         })?;
     }
-    if !make_logs(plan, &without, &logs, &pool)? {
+    if !make_logs(study, &without, &logs, &pool)? {
         say(format!("stopped with {before} of {count} rows done\nThe same command goes on."));
         return Ok(Outcome::Stopped);
     }
-    let progress = Progress::of_runs(count, before);
+    let progress = CommandProgress::of_runs(count, before);
     let (journal, failures, without_run) = (Mutex::new(journal), AtomicU64::new(0), AtomicU64::new(0));
     let one = |&row: &u64| {
         if interrupt::asked_to_stop() {
             return Ok(());
         }
-        let Ran::Row(row) = one::run(plan, row, keep, &logs)? else { return Ok(()) };
+        let Ran::Row(row) = one::run(study, row, keep, &logs)? else { return Ok(()) };
         let line = row.to_line();
         journal.lock().unwrap_or_else(PoisonError::into_inner).add(row.row, &line)?;
-        if row.is_failure(plan.columns()) {
+        if row.is_failure(study.columns()) {
             progress.failed(failures.fetch_add(1, Ordering::Relaxed) + 1);
-            without_run.fetch_add(u64::from(!row.could_run(plan.columns())), Ordering::Relaxed);
+            without_run.fetch_add(u64::from(!row.could_run(study.columns())), Ordering::Relaxed);
         }
         progress.step();
         Ok(())
@@ -87,7 +87,7 @@ pub fn run(
         say(format!("stopped with {} of {count} rows done\nThe same command goes on.", count - left));
         return Ok(Outcome::Stopped);
     }
-    journal.finish(&part, plan.columns())?;
+    journal.finish(&part, study.columns())?;
     note(format!("wrote {}", part.display()));
     let (failures, without_run) = (failures.into_inner(), without_run.into_inner());
     let made = count - before;
@@ -103,13 +103,13 @@ pub fn run(
 }
 
 /// Writes the full logs of rows that were run before. `false` where somebody asked to stop.
-fn make_logs(plan: &SweepPlan, rows: &[u64], logs: &Path, pool: &rayon::ThreadPool) -> Result<bool, Failure> {
+fn make_logs(study: &Study, rows: &[u64], logs: &Path, pool: &rayon::ThreadPool) -> Result<bool, Failure> {
     if rows.is_empty() {
         return Ok(true);
     }
-    let progress = Progress::of(rows.len() as u64, "logs");
+    let progress = CommandProgress::of(rows.len() as u64, "logs");
     let one = |&row: &u64| {
-        if !interrupt::asked_to_stop() && one::log_again(plan, row, logs)? {
+        if !interrupt::asked_to_stop() && one::log_again(study, row, logs)? {
             progress.step();
         }
         Ok(())
@@ -124,9 +124,9 @@ fn make_logs(plan: &SweepPlan, rows: &[u64], logs: &Path, pool: &rayon::ThreadPo
     Ok(true)
 }
 
-/// A part that is there: it must be whole and of this plan. Full logs to keep that are not there are written.
+/// A part that is there: it must be whole and of this study. Full logs to keep that are not there are written.
 fn finished(
-    plan: &SweepPlan,
+    study: &Study,
     part: &Path,
     jobs: Option<usize>,
     (keep, logs): (Keep, &Path),
@@ -134,22 +134,22 @@ fn finished(
 ) -> Result<Outcome, Failure> {
     let refused = |error| merge::refused(part, &error);
     let mut reader = PartReader::new(BufReader::new(open(part)?)).map_err(refused)?;
-    let is_ours = reader.head().plan == plan.line();
+    let is_ours = reader.head().study == study.line();
     let (mut count, mut without) = (0_u64, Vec::new());
-    // to the end, where the seal proves the rows and the plan
+    // to the end, where the seal proves the rows and the study
     while let Some((row, _)) = reader.row().map_err(refused)? {
         count += 1;
-        if is_ours && one::lacks_log(plan, &row, keep, logs) {
+        if is_ours && one::lacks_log(study, &row, keep, logs) {
             without.push(row.row);
         }
     }
     if !is_ours {
         return Err(Failure::input(
-            format!("{}: it is of another plan", part.display()),
+            format!("{}: it is of another study", part.display()),
             "Name another folder with -o, or take the part away.",
         ));
     }
-    if !make_logs(plan, &without, logs, &pool(jobs)?)? {
+    if !make_logs(study, &without, logs, &pool(jobs)?)? {
         say("stopped; the same command goes on");
         return Ok(Outcome::Stopped);
     }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::capture::{Captured, Form, with_names};
+use motion_lab::capture::{CaptureForm, Captured, with_names};
 use motion_lab::picture::{Figure, places, world as draw};
 use motion_lab::worlds::{Grid, World};
 
@@ -25,13 +25,13 @@ Examples:
   motion-lab world export lot --resolution 0.05 -o lot.yaml
   motion-lab world export apartment --names --theme dark -o apartment.png
   motion-lab world export yard.ron -o - > yard.svg")]
-pub struct Export {
+pub struct WorldExport {
     /// A built-in world's name, or the path of a world file.
     #[arg(value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     world: String,
     /// The format. [default: by the output's name]
     #[arg(long)]
-    format: Option<Format>,
+    format: Option<WorldFormat>,
     /// The file to write: the yaml of a ROS map, or the picture. `-` is standard output, for a picture.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -46,7 +46,7 @@ pub struct Export {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum WorldFormat {
     /// The yaml and PGM of map_server.
     Ros,
     /// A picture.
@@ -55,21 +55,25 @@ enum Format {
     Png,
 }
 
-impl Export {
+impl WorldExport {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let world = find_world(&self.world)?;
         let format = self.format.or_else(|| match self.output.extension().and_then(|e| e.to_str()) {
-            Some("yaml" | "yml") => Some(Format::Ros),
-            Some("png") => Some(Format::Png),
-            Some("svg") => Some(Format::Svg),
-            _ => is_dash(&self.output).then_some(Format::Svg),
+            Some("yaml" | "yml") => Some(WorldFormat::Ros),
+            Some("png") => Some(WorldFormat::Png),
+            Some("svg") => Some(WorldFormat::Svg),
+            _ => is_dash(&self.output).then_some(WorldFormat::Svg),
         });
         match format {
-            Some(Format::Ros) => self.ros(&world)?,
+            Some(WorldFormat::Ros) => self.ros(&world)?,
             Some(form) => {
                 let target = Target::of(&self.output)?;
-                self.picture(&world, if form == Format::Png { Form::Png } else { Form::Svg }, target.path())?;
+                self.picture(
+                    &world,
+                    if form == WorldFormat::Png { CaptureForm::Png } else { CaptureForm::Svg },
+                    target.path(),
+                )?;
                 target.finish(data)?;
             }
             None => {
@@ -83,7 +87,7 @@ impl Export {
     }
 
     /// Draws the world.
-    fn picture(&self, world: &World, form: Form, path: &Path) -> Result<(), Failure> {
+    fn picture(&self, world: &World, form: CaptureForm, path: &Path) -> Result<(), Failure> {
         let paper = self.paper.paper();
         let mut picture = draw(world);
         if !self.names {

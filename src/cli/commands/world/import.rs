@@ -40,7 +40,7 @@ pub struct Import {
     output: Option<PathBuf>,
     /// What FILE is. [default: by its name and content]
     #[arg(long, alias = "from")]
-    format: Option<Kind>,
+    format: Option<ImportFormat>,
     /// The world's name. [default: FILE without folder and extension]
     #[arg(long)]
     name: Option<String>,
@@ -70,7 +70,7 @@ pub struct Import {
 
 /// A format that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Kind {
+enum ImportFormat {
     /// A ROS map: the yaml file of map_server.
     Ros,
     /// A map of the MovingAI benchmarks.
@@ -109,26 +109,26 @@ impl Import {
         Ok(Outcome::Done)
     }
 
-    fn read(&self, kind: Kind) -> Result<Imported, Failure> {
+    fn read(&self, kind: ImportFormat) -> Result<Imported, Failure> {
         let file = self.file.display().to_string();
         let stem = self.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
         let name = self.name.clone().or(stem).unwrap_or_default();
         let style = if self.hollow { CellStyle::Hollow } else { CellStyle::Solid };
-        let limit = if kind == Kind::Movingai { MAX_TEXT } else { MAX_FOREIGN };
+        let limit = if kind == ImportFormat::Movingai { MAX_TEXT } else { MAX_FOREIGN };
         let text = read_text_of(&self.file, limit)?;
         match kind {
-            Kind::Ros => RosMap::parse(&file, &text).map_err(refused).and_then(|map| {
+            ImportFormat::Ros => RosMap::parse(&file, &text).map_err(refused).and_then(|map| {
                 // the image lies where the yaml says, seen from the yaml's own folder
                 let image = self.file.parent().unwrap_or(Path::new("")).join(&map.image);
                 let bytes = read_bytes(&image, MAX_TEXT)?;
                 let cells = map.cells(&image.display().to_string(), &bytes, self.unknown).map_err(refused)?;
                 cells.world(&file, &name, style).map_err(refused)
             }),
-            Kind::Movingai => movingai(&file, &text, self.metres_per_cell)
+            ImportFormat::Movingai => movingai(&file, &text, self.metres_per_cell)
                 .and_then(|cells| cells.world(&file, &name, style))
                 .map_err(refused),
-            Kind::Irsim => irsim(&file, &text, &name).map_err(refused),
-            Kind::Svg => {
+            ImportFormat::Irsim => irsim(&file, &text, &name).map_err(refused),
+            ImportFormat::Svg => {
                 let options = SvgOptions { metres_per_unit: self.metres_per_unit, tolerance: self.tolerance };
                 svg(&file, &text, &name, options).map_err(refused)
             }
@@ -141,13 +141,13 @@ fn refused(error: ImportError) -> Failure {
 }
 
 /// The kind of a file, by its name; of a yaml file, by its content.
-fn kind_of(file: &Path) -> Result<Kind, Failure> {
+fn kind_of(file: &Path) -> Result<ImportFormat, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     match extension.as_str() {
-        "map" => Ok(Kind::Movingai),
-        "svg" => Ok(Kind::Svg),
-        "yaml" | "yml" if is_ros_map(&read_text_of(file, MAX_FOREIGN)?) => Ok(Kind::Ros),
-        "yaml" | "yml" => Ok(Kind::Irsim),
+        "map" => Ok(ImportFormat::Movingai),
+        "svg" => Ok(ImportFormat::Svg),
+        "yaml" | "yml" if is_ros_map(&read_text_of(file, MAX_FOREIGN)?) => Ok(ImportFormat::Ros),
+        "yaml" | "yml" => Ok(ImportFormat::Irsim),
         "pgm" => Err(Failure::usage(
             format!("{}: this is a ROS map's image", file.display()),
             "Name the yaml file beside it: that tells the size of a pixel and where the map lies.",

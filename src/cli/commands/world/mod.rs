@@ -18,7 +18,7 @@ use crate::cli::support::target::write_text;
 use crate::cli::support::words::counted;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};
-use export::Export;
+use export::WorldExport;
 use generate::Generate;
 use import::Import;
 
@@ -31,11 +31,11 @@ Examples:
   motion-lab world check yard.ron")]
 pub struct WorldArgs {
     #[command(subcommand)]
-    command: WorldCommand,
+    command: WorldSubcommand,
 }
 
 #[derive(Debug, Subcommand)]
-enum WorldCommand {
+enum WorldSubcommand {
     /// Read world files and say what is in them, or what is wrong with them: what they are written like, robots that
     /// start in contact with something or with one another, obstacles outside the bounds. Every file is read; one that
     /// is wrong makes the exit code 3.
@@ -75,7 +75,7 @@ Examples:
         output: Option<PathBuf>,
     },
     Import(Box<Import>),
-    Export(Export),
+    Export(WorldExport),
     Generate(Generate),
 }
 
@@ -84,7 +84,7 @@ const MANY: usize = 20;
 
 /// The summary of a world.
 #[derive(Serialize)]
-struct Summary<'a> {
+struct WorldReport<'a> {
     /// The name or file by which it was asked for.
     source: &'a str,
     name: &'a str,
@@ -99,20 +99,20 @@ impl WorldArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         match self.command {
-            WorldCommand::Check { files, json } => check(&files, json, data),
-            WorldCommand::List { json } => {
+            WorldSubcommand::Check { files, json } => check(&files, json, data),
+            WorldSubcommand::List { json } => {
                 for name in World::built_in_names() {
                     summarise(name, &find_world(name)?, json, data)?;
                 }
                 Ok(Outcome::Done)
             }
-            WorldCommand::Show { world, output } => {
+            WorldSubcommand::Show { world, output } => {
                 write_text(output.as_deref(), &find_world(&world)?.to_ron(), data)?;
                 Ok(Outcome::Done)
             }
-            WorldCommand::Import(import) => import.run(data),
-            WorldCommand::Export(export) => export.run(data),
-            WorldCommand::Generate(generate) => generate.run(data),
+            WorldSubcommand::Import(import) => import.run(data),
+            WorldSubcommand::Export(export) => export.run(data),
+            WorldSubcommand::Generate(generate) => generate.run(data),
         }
     }
 }
@@ -141,7 +141,7 @@ fn check(files: &[PathBuf], json: bool, data: &mut Data) -> Result<Outcome, Fail
 }
 
 fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result<(), Failure> {
-    let summary = Summary {
+    let summary = WorldReport {
         source,
         name: &world.name,
         content_hash: format!("{:032x}", world.content_hash()),
@@ -153,7 +153,7 @@ fn summarise(source: &str, world: &World, json: bool, data: &mut Data) -> Result
     if json {
         return data.json(&summary);
     }
-    let Summary { name, content_hash, obstacles, places, marks, .. } = &summary;
+    let WorldReport { name, content_hash, obstacles, places, marks, .. } = &summary;
     let robots = match summary.robots.len() {
         0 => "none".to_owned(),
         many @ MANY.. => many.to_string(),

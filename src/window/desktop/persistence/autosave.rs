@@ -9,8 +9,8 @@ use std::time::Duration;
 
 use bevy::prelude::*;
 
-use super::saved_run::{KeptRun, KeptRunError, MOST_BYTES, world_texts};
-use super::slot::{Slot, forget, left_behind, set_aside, sweep};
+use super::saved_run::{MAX_BYTES, SavedRun, SavedRunError, world_texts};
+use super::slot::{Slot, forget, left_behind, move_away, sweep};
 use crate::window::background::{self, Background};
 use crate::window::error::SessionError;
 use crate::window::ui::{Interface, Notice, Offer, Widget};
@@ -25,7 +25,7 @@ use motion_lab_sim::tour::TourConfig;
 pub const EVERY: Duration = Duration::from_secs(3);
 
 /// Largest number of runs that are left for later. Older ones are taken away.
-const MOST_LEFT: usize = 8;
+const MAX_LEFT: usize = 8;
 
 /// Keeps the run under way while it has input that is in no file, and offers the one that a window before left.
 ///
@@ -59,18 +59,18 @@ pub struct Autosave {
     /// The files of this window, from the first write on.
     slot: Option<Slot>,
     /// The file being written.
-    writing: Option<JoinHandle<Written>>,
+    writing: Option<JoinHandle<SaveOutcome>>,
     /// The run as it was written last.
-    written: Option<KeptRun>,
+    written: Option<SavedRun>,
     /// The texts of the worlds of a configuration, which take long to make for large worlds.
     texts: Option<Texts>,
     in_file: Option<InFile>,
     /// When the run was last compared with what was written, by the window's clock.
     looked: Option<Duration>,
     /// The run that was left and is offered, and its file.
-    offered: Option<(PathBuf, KeptRun)>,
+    offered: Option<(PathBuf, SavedRun)>,
     /// The run on its way back.
-    coming: Option<KeptRun>,
+    coming: Option<SavedRun>,
     /// The file of the run that was brought back, until that run is written anew.
     came_from: Option<PathBuf>,
     has_failed: bool,
@@ -84,10 +84,10 @@ struct Texts {
 }
 
 /// What a thread gives back.
-struct Written {
+struct SaveOutcome {
     slot: Option<Slot>,
     texts: Option<Texts>,
-    run: KeptRun,
+    run: SavedRun,
     outcome: Result<(), String>,
 }
 
@@ -125,16 +125,16 @@ fn is_worth_keeping(world: &World) -> bool {
 }
 
 /// The run as it stands.
-fn present(world: &World) -> Option<KeptRun> {
+fn present(world: &World) -> Option<SavedRun> {
     let Transport { tick, frontier, .. } = *world.resource::<Transport>();
     let frame = world.resource::<LatestFrame>().0.digest();
-    Some(KeptRun { recipe: recipe(world)?, tick, frontier, frame })
+    Some(SavedRun { recipe: recipe(world)?, tick, frontier, frame })
 }
 
 /// Whether the run stands as it was written.
 fn is_written(world: &World) -> bool {
     let Transport { tick, frontier, .. } = *world.resource::<Transport>();
-    let is_as = |written: &KeptRun| {
+    let is_as = |written: &SavedRun| {
         (written.tick, written.frontier) == (tick, frontier) && is_under_way(world, &written.recipe)
     };
     world.resource::<Autosave>().written.as_ref().is_some_and(is_as)
@@ -166,15 +166,15 @@ fn keep(world: &mut World) {
 }
 
 /// Writes a run, with a slot and the texts of its worlds where they are known.
-fn write(folder: &Path, slot: Option<Slot>, texts: Option<Texts>, run: KeptRun) -> Written {
-    let mut written = Written { slot, texts, run, outcome: Ok(()) };
+fn write(folder: &Path, slot: Option<Slot>, texts: Option<Texts>, run: SavedRun) -> SaveOutcome {
+    let mut written = SaveOutcome { slot, texts, run, outcome: Ok(()) };
     written.outcome = written.write(folder);
     written
 }
 
-impl Written {
+impl SaveOutcome {
     fn write(&mut self, folder: &Path) -> Result<(), String> {
-        let said = |error: KeptRunError| error.to_string();
+        let said = |error: SavedRunError| error.to_string();
         let texts = match self.texts.take().filter(|texts| Arc::ptr_eq(&texts.of, &self.run.recipe.config)) {
             Some(texts) => texts,
             None => {
@@ -201,7 +201,7 @@ fn end_writing(world: &mut World) {
     note(world, written);
 }
 
-fn note(world: &mut World, Written { slot, texts, run, outcome }: Written) {
+fn note(world: &mut World, SaveOutcome { slot, texts, run, outcome }: SaveOutcome) {
     let autosave = world.resource_mut::<Autosave>().into_inner();
     (autosave.slot, autosave.texts) = (slot, texts);
     // also where it failed, so that the same run is not tried again and again
@@ -258,7 +258,7 @@ fn offer(world: &mut World) {
     let folder = world.resource::<Autosave>().folder.clone();
     sweep(&folder);
     let mut left = left_behind(&folder).into_iter();
-    for path in left.by_ref().take(MOST_LEFT) {
+    for path in left.by_ref().take(MAX_LEFT) {
         match read(&path) {
             Ok(run) => {
                 let (inputs, tick) = (run.recipe.inputs(), run.tick);
@@ -269,23 +269,23 @@ fn offer(world: &mut World) {
                 break;
             }
             Err(reason) => {
-                let aside = set_aside(&path);
+                let aside = move_away(&path);
                 let text = format!("the run of before can't be brought back: {reason}; it is now {}", aside.display());
                 world.resource_mut::<Interface>().0.say_in(Widget::Dashboard, Notice { text, is_error: true });
             }
         }
     }
     // the others wait for the next start, but not all of them for ever
-    left.skip(MOST_LEFT).for_each(|old| forget(&old));
+    left.skip(MAX_LEFT).for_each(|old| forget(&old));
 }
 
-fn read(path: &Path) -> Result<KeptRun, String> {
+fn read(path: &Path) -> Result<SavedRun, String> {
     let about = fs::metadata(path).map_err(|error| error.to_string())?;
-    if about.len() > MOST_BYTES {
-        return Err(format!("{} bytes: at most {MOST_BYTES} are read", about.len()));
+    if about.len() > MAX_BYTES {
+        return Err(format!("{} bytes: at most {MAX_BYTES} are read", about.len()));
     }
     let bytes = fs::read(path).map_err(|error| error.to_string())?;
-    KeptRun::read(&bytes).map_err(|error| error.to_string())
+    SavedRun::read(&bytes).map_err(|error| error.to_string())
 }
 
 /// Does what the reader wants done with the run that is offered.
@@ -309,7 +309,7 @@ fn answer(world: &mut World) {
 }
 
 /// Starts the run again in place of the present one, which an undo brings back, and goes to where it stood, paused.
-fn bring_back(world: &mut World, run: KeptRun) -> Result<(), SessionError> {
+fn bring_back(world: &mut World, run: SavedRun) -> Result<(), SessionError> {
     background::stop(world);
     checkpoint(world);
     let Transport { speed, .. } = *world.resource::<Transport>();

@@ -1,4 +1,4 @@
-//! `KeptRun`, the run under way as a text from which the same run is made again.
+//! `SavedRun`, the run under way as a text from which the same run is made again.
 
 use serde::{Deserialize, Serialize};
 use xxhash_rust::xxh3::xxh3_128;
@@ -13,11 +13,11 @@ use motion_lab_sim::tour::TourConfig;
 const HEAD: &str = "motion-lab run under way 1";
 
 /// Largest size of a file that is read, bytes.
-pub const MOST_BYTES: u64 = 1 << 28;
+pub const MAX_BYTES: u64 = 1 << 28;
 
 /// All that determines a run, and where it stands. It holds no frames: the run is simulated again.
 #[derive(Clone, Debug, PartialEq)]
-pub struct KeptRun {
+pub struct SavedRun {
     /// The run.
     pub recipe: Recipe,
     /// The tick at which the run stands.
@@ -30,7 +30,7 @@ pub struct KeptRun {
 
 /// Why a run can't be kept, or brought back.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum KeptRunError {
+pub enum SavedRunError {
     /// A file whose bytes are not those that were written.
     #[error("its file is damaged")]
     Damaged,
@@ -59,43 +59,43 @@ struct RunText {
     frontier: u64,
     frame: String,
     ticks: u64,
-    sensor: Option<SensorText>,
+    sensor: Option<SavedSensor>,
     worlds: Vec<String>,
     script: String,
 }
 
 #[derive(Serialize, Deserialize)]
 #[serde(rename = "Sensor", deny_unknown_fields)]
-struct SensorText {
+struct SavedSensor {
     n_rays: u32,
     max_range: f64,
 }
 
-fn text(item: &str, reason: impl ToString) -> KeptRunError {
-    KeptRunError::Text { item: item.to_owned(), reason: reason.to_string() }
+fn text(item: &str, reason: impl ToString) -> SavedRunError {
+    SavedRunError::Text { item: item.to_owned(), reason: reason.to_string() }
 }
 
 /// The texts of a run's worlds.
 ///
 /// # Errors
-/// [`KeptRunError::World`] for one that its text would not give back.
-pub fn world_texts(config: &TourConfig) -> Result<Vec<String>, KeptRunError> {
+/// [`SavedRunError::World`] for one that its text would not give back.
+pub fn world_texts(config: &TourConfig) -> Result<Vec<String>, SavedRunError> {
     let text = |world: &World| {
         let text = world.to_ron();
         let is_same = World::parse(&world.name, &text).is_ok_and(|read| read == *world);
-        if is_same { Ok(text) } else { Err(KeptRunError::World(world.name.clone())) }
+        if is_same { Ok(text) } else { Err(SavedRunError::World(world.name.clone())) }
     };
     config.worlds.iter().map(text).collect()
 }
 
-impl KeptRun {
+impl SavedRun {
     /// The bytes of its file, by the texts of its worlds.
     ///
     /// # Errors
-    /// [`KeptRunError::Text`] when they can't be written, which is a fault of the lab.
-    pub fn to_bytes(&self, worlds: &[String]) -> Result<Vec<u8>, KeptRunError> {
+    /// [`SavedRunError::Text`] when they can't be written, which is a fault of the lab.
+    pub fn to_bytes(&self, worlds: &[String]) -> Result<Vec<u8>, SavedRunError> {
         let Recipe { seed, config, script } = &self.recipe;
-        let sensor = config.sensor.map(|s| SensorText { n_rays: s.n_rays, max_range: s.max_range });
+        let sensor = config.sensor.map(|s| SavedSensor { n_rays: s.n_rays, max_range: s.max_range });
         let run = RunText {
             seed: seed.0,
             tick: self.tick,
@@ -113,17 +113,17 @@ impl KeptRun {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`KeptRunError`] says what is wrong with it.
-    pub fn read(bytes: &[u8]) -> Result<Self, KeptRunError> {
-        let whole = std::str::from_utf8(bytes).map_err(|_| KeptRunError::Damaged)?;
-        let (head, rest) = whole.split_once('\n').ok_or(KeptRunError::Damaged)?;
+    /// [`SavedRunError`] says what is wrong with it.
+    pub fn read(bytes: &[u8]) -> Result<Self, SavedRunError> {
+        let whole = std::str::from_utf8(bytes).map_err(|_| SavedRunError::Damaged)?;
+        let (head, rest) = whole.split_once('\n').ok_or(SavedRunError::Damaged)?;
         if head != HEAD {
-            return Err(KeptRunError::Foreign);
+            return Err(SavedRunError::Foreign);
         }
-        let (hash, body) = rest.split_once('\n').ok_or(KeptRunError::Damaged)?;
-        let body = body.strip_suffix('\n').ok_or(KeptRunError::Damaged)?;
+        let (hash, body) = rest.split_once('\n').ok_or(SavedRunError::Damaged)?;
+        let body = body.strip_suffix('\n').ok_or(SavedRunError::Damaged)?;
         if hash != format!("{:032x}", xxh3_128(body.as_bytes())) {
-            return Err(KeptRunError::Damaged);
+            return Err(SavedRunError::Damaged);
         }
         let run: RunText = ron::from_str(body).map_err(|error| text("the run", error))?;
         let world = |(i, it): (usize, &String)| {
@@ -134,7 +134,7 @@ impl KeptRun {
         let sensor = run.sensor.map(|s| RangeSensor { n_rays: s.n_rays, max_range: s.max_range });
         let config = TourConfig { worlds, ticks: run.ticks, sensor };
         let script = Script::parse("script", &run.script).map_err(|error| text("the script", error))?;
-        Ok(KeptRun {
+        Ok(SavedRun {
             recipe: Recipe::new(config, (Seed(run.seed), script)),
             tick: run.tick,
             frontier: run.frontier,
@@ -150,10 +150,10 @@ mod tests {
     use super::*;
     use motion_lab_sim::run::{Event, RobotInput};
 
-    fn run() -> KeptRun {
+    fn run() -> SavedRun {
         let events = vec![Event { tick: 3, robot: "Rusty".into(), input: RobotInput::Drive(128, -1) }];
         let config = TourConfig { ticks: 77, ..TourConfig::default() };
-        KeptRun {
+        SavedRun {
             recipe: Recipe::new(config, (Seed(u64::MAX), Script::new(events, vec![]))),
             tick: 4,
             frontier: 9,
@@ -169,11 +169,11 @@ mod tests {
         config.sensor = Some(RangeSensor { n_rays: 3, max_range: 0.1 + 0.2 });
         config.worlds[0].robots[0].start[0] += 1e-13;
         let texts = world_texts(&kept.recipe.config).unwrap();
-        assert_eq!(KeptRun::read(&kept.to_bytes(&texts).unwrap()).unwrap(), kept);
+        assert_eq!(SavedRun::read(&kept.to_bytes(&texts).unwrap()).unwrap(), kept);
         let mut none = run();
         Arc::make_mut(&mut none.recipe.config).sensor = None;
         let texts = world_texts(&none.recipe.config).unwrap();
-        assert_eq!(KeptRun::read(&none.to_bytes(&texts).unwrap()).unwrap(), none);
+        assert_eq!(SavedRun::read(&none.to_bytes(&texts).unwrap()).unwrap(), none);
     }
 
     #[test]
@@ -185,17 +185,17 @@ mod tests {
             let mut changed = bytes.clone();
             changed[at] ^= 1;
             let cut = &bytes[..at];
-            refused += usize::from(KeptRun::read(&changed).is_err() && KeptRun::read(cut).is_err());
+            refused += usize::from(SavedRun::read(&changed).is_err() && SavedRun::read(cut).is_err());
         }
         assert!(refused > 100 && refused == (0..bytes.len()).step_by(97).count() + 81, "{refused}");
-        assert_eq!(KeptRun::read(b"a cat\nand another\n"), Err(KeptRunError::Foreign));
-        assert_eq!(KeptRun::read(&[0xff, 0xfe]), Err(KeptRunError::Damaged));
+        assert_eq!(SavedRun::read(b"a cat\nand another\n"), Err(SavedRunError::Foreign));
+        assert_eq!(SavedRun::read(&[0xff, 0xfe]), Err(SavedRunError::Damaged));
     }
 
     #[test]
     fn a_world_that_no_file_can_describe_is_not_kept() {
         let mut config = TourConfig::default();
         config.worlds[0].robots[0].start[0] = f64::NAN;
-        assert!(matches!(world_texts(&config), Err(KeptRunError::World(name)) if name == config.worlds[0].name));
+        assert!(matches!(world_texts(&config), Err(SavedRunError::World(name)) if name == config.worlds[0].name));
     }
 }

@@ -16,9 +16,9 @@ pub struct PersistSettingsPlugin;
 
 impl Plugin for PersistSettingsPlugin {
     fn build(&self, app: &mut App) {
-        app.register_type::<Kept>()
+        app.register_type::<StoredSettings>()
             .add_plugins(SettingsPlugin::new(PROGRAM))
-            .init_resource::<Kept>()
+            .init_resource::<StoredSettings>()
             .add_systems(PreStartup, restore)
             .add_systems(PostUpdate, keep)
             .add_systems(Last, keep_at_the_end);
@@ -29,7 +29,7 @@ impl Plugin for PersistSettingsPlugin {
 #[derive(Resource, SettingsGroup, Reflect, Clone, Default, PartialEq)]
 #[reflect(Resource, SettingsGroup, Default)]
 #[settings_group(group = "window")]
-struct Kept {
+struct StoredSettings {
     settings: ui::Settings,
     /// Width and height of the window, points; 0 where none is kept yet.
     size: UVec2,
@@ -41,14 +41,18 @@ struct Kept {
 const SIZES: RangeInclusive<u32> = 360..=16_384;
 
 /// Whether a window of this size can be made again. A window put away as an icon has none.
-fn is_kept(size: UVec2) -> bool {
+fn can_be_made_again(size: UVec2) -> bool {
     SIZES.contains(&size.x) && SIZES.contains(&size.y)
 }
 
-fn restore(kept: Res<Kept>, mut interface: ResMut<Interface>, mut windows: Query<&mut Window, With<PrimaryWindow>>) {
+fn restore(
+    kept: Res<StoredSettings>,
+    mut interface: ResMut<Interface>,
+    mut windows: Query<&mut Window, With<PrimaryWindow>>,
+) {
     interface.0.settings = kept.settings.clone();
     interface.0.recent = Recent::of(&kept.recent);
-    for mut window in windows.iter_mut().filter(|_| is_kept(kept.size)) {
+    for mut window in windows.iter_mut().filter(|_| can_be_made_again(kept.size)) {
         window.resolution.set(kept.size.x as f32, kept.size.y as f32);
     }
 }
@@ -56,12 +60,13 @@ fn restore(kept: Res<Kept>, mut interface: ResMut<Interface>, mut windows: Query
 fn keep(
     interface: Res<Interface>,
     windows: Query<&Window, With<PrimaryWindow>>,
-    mut kept: ResMut<Kept>,
+    mut kept: ResMut<StoredSettings>,
     mut commands: Commands,
 ) {
-    let size = windows.iter().map(|window| window.resolution.size().round().as_uvec2()).find(|size| is_kept(*size));
-    let (settings, recent) = (interface.0.settings.clone(), interface.0.recent.kept());
-    let new = Kept { settings, size: size.unwrap_or(kept.size), recent };
+    let size =
+        windows.iter().map(|window| window.resolution.size().round().as_uvec2()).find(|size| can_be_made_again(*size));
+    let (settings, recent) = (interface.0.settings.clone(), interface.0.recent.saved());
+    let new = StoredSettings { settings, size: size.unwrap_or(kept.size), recent };
     if new != *kept {
         *kept = new;
         commands.queue(SaveSettingsDeferred(Duration::from_secs(1)));
@@ -82,7 +87,7 @@ mod tests {
     fn restored(size: UVec2) -> App {
         let mut app = App::new();
         app.init_resource::<Interface>().add_systems(PreStartup, restore).add_systems(PostUpdate, keep);
-        app.insert_resource(Kept { size, ..default() });
+        app.insert_resource(StoredSettings { size, ..default() });
         app.world_mut().spawn((Window::default(), PrimaryWindow));
         app.update();
         app
@@ -94,13 +99,13 @@ mod tests {
         let interface = app.world_mut().resource_mut::<Interface>().into_inner();
         interface.0.recent.put_first(std::path::Path::new("/runs/b.mcap"));
         app.update();
-        assert_eq!(app.world().resource::<Kept>().recent, ["/runs/b.mcap"]);
+        assert_eq!(app.world().resource::<StoredSettings>().recent, ["/runs/b.mcap"]);
         let mut again = App::new();
         again.init_resource::<Interface>().add_systems(PreStartup, restore).add_systems(PostUpdate, keep);
-        again.insert_resource(app.world().resource::<Kept>().clone());
+        again.insert_resource(app.world().resource::<StoredSettings>().clone());
         again.update();
-        assert_eq!(again.world().resource::<Interface>().0.recent.kept(), ["/runs/b.mcap"]);
-        assert_eq!(again.world().resource::<Kept>().recent, ["/runs/b.mcap"]);
+        assert_eq!(again.world().resource::<Interface>().0.recent.saved(), ["/runs/b.mcap"]);
+        assert_eq!(again.world().resource::<StoredSettings>().recent, ["/runs/b.mcap"]);
     }
 
     fn window(app: &mut App) -> Mut<'_, Window> {
@@ -113,11 +118,11 @@ mod tests {
         assert_eq!(window(&mut app).resolution.size(), vec2(900.0, 700.0));
         window(&mut app).resolution.set(1000.0, 640.0);
         app.update();
-        assert_eq!(app.world().resource::<Kept>().size, uvec2(1000, 640));
+        assert_eq!(app.world().resource::<StoredSettings>().size, uvec2(1000, 640));
         // put away as an icon it has no size, and the last one stays
         window(&mut app).resolution.set(1.0, 1.0);
         app.update();
-        assert_eq!(app.world().resource::<Kept>().size, uvec2(1000, 640));
+        assert_eq!(app.world().resource::<StoredSettings>().size, uvec2(1000, 640));
         // what no screen has is not restored
         let usual = Window::default().resolution.size();
         for size in [UVec2::ZERO, uvec2(100, 700), uvec2(900, 1_000_000)] {

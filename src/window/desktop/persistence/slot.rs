@@ -113,7 +113,7 @@ pub fn forget(run: &Path) {
 }
 
 /// Puts a run that can't be brought back aside, under a name that nobody looks for. Returns where it is.
-pub fn set_aside(run: &Path) -> PathBuf {
+pub fn move_away(run: &Path) -> PathBuf {
     let aside = run.with_extension("damaged");
     let _ = fs::remove_file(run.with_extension(LOCK));
     if fs::rename(run, &aside).is_ok() { aside } else { run.to_owned() }

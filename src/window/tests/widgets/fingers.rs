@@ -199,14 +199,14 @@ fn each_widget_on_a_phone_offers_its_next_task_below_the_picture() {
             harness.get_by_label(&for_fingers(&hints[0].text)).rect().top() > 0.45 * PHONE[1],
             "{widget:?}: below the picture"
         );
-        ui(&mut harness, |ui| ui.settings.tick_off(hints[0].deed));
+        ui(&mut harness, |ui| ui.settings.tick_off(hints[0].task));
         harness.run_steps(3);
         assert_eq!(offered(&harness), [1], "{widget:?}");
         harness.get_by_label(&for_fingers(&hints[1].text)).scroll_to_me();
         harness.run_steps(20);
         click(&mut harness, &for_fingers(&hints[1].text));
         let begun = harness.state().app.world().resource::<Interface>().0.lesson.as_ref().map(|of| of.lesson.deed);
-        assert_eq!(begun, Some(hints[1].deed), "{widget:?}");
+        assert_eq!(begun, Some(hints[1].task), "{widget:?}");
         ui(&mut harness, |ui| ui.lesson = None);
         harness.run_steps(3);
         harness.get_by_label("Got it").scroll_to_me();

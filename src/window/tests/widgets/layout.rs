@@ -129,7 +129,7 @@ fn ticking_off_a_hint_moves_nothing() {
             for turned in 0..hints.len() {
                 for count in 1..=hints.len() {
                     let done = hints.iter().cycle().skip(turned).take(count);
-                    interface_mut(&mut harness).settings.done = done.map(|hint| hint.deed.id().to_owned()).collect();
+                    interface_mut(&mut harness).settings.done = done.map(|hint| hint.task.id().to_owned()).collect();
                     harness.run_steps(2);
                     assert_eq!(papers(&harness, widget), before, "{widget:?} at {width}: {count} from {turned}");
                     let [first, last] = ["Try:", "Got it"].map(|name| harness.get_by_label(name).rect().center());

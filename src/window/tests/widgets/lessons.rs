@@ -260,7 +260,7 @@ fn every_lesson_has_a_hint() {
     let hints: Vec<String> = crate::window::ui::Widget::ALL
         .into_iter()
         .flat_map(|widget| &widget.text().hints)
-        .map(|h| h.deed.id())
+        .map(|h| h.task.id())
         .collect();
     for (deed, ..) in LESSONS {
         assert!(hints.iter().any(|hint| hint == deed), "{deed}");

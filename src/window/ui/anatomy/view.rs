@@ -7,18 +7,18 @@ use bevy_egui::egui::{
 };
 
 use super::state::Guesses;
-use crate::window::ui::number::Typed;
+use crate::window::ui::number::NumberInput;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::{formulas, headline, next_hint};
 use crate::window::ui::paint::sheet::{sheet, split, steady, two_columns};
 use crate::window::ui::tasks_done::of_anatomy;
-use crate::window::ui::{AnatomyState, Command, Dashboard, Look, Notice, UiState};
+use crate::window::ui::{AnatomyState, Command, Dashboard, FrameColours, Notice, UiState};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, in_signs, true_minus};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::anatomy::{Anatomy, LENGTHS, Series, Tab, WorldSource};
-use motion_lab_sim::manifest::{Deed, Widget};
+use motion_lab_sim::anatomy::{Anatomy, LENGTHS, PromptSeries, Tab, WorldSource};
+use motion_lab_sim::manifest::{HintTask, Widget};
 
 /// Width of the panel beside the paper, points.
 const SIDE: f32 = 380.0;
@@ -36,7 +36,13 @@ const CHOOSER: f32 = 150.0;
 const INSET: f32 = 208.0;
 
 /// Shows the widget.
-pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn anatomy_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let words = Widget::Anatomy.text();
     if !look.low {
         crate::window::ui::menu::head(ui, words, model, look, state, commands);
@@ -87,7 +93,7 @@ pub fn anatomy_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiS
 }
 
 /// Shows the question, its answer, and the configuration.
-fn asked(ui: &mut Ui, look: &Look, state: &mut UiState) {
+fn asked(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
     ui.horizontal_wrapped(|ui| {
         for tab in Tab::ALL {
             if LabButton::new(tab.name()).selected(state.anatomy.anatomy.tab == tab).show(ui, look).clicked() {
@@ -119,12 +125,12 @@ fn asked(ui: &mut Ui, look: &Look, state: &mut UiState) {
 }
 
 /// Shows the close view, a guess, and what can be copied or chosen.
-fn more(ui: &mut Ui, look: &Look, state: &mut UiState) {
+fn more(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
     if !look.narrow {
         inset(ui, look, state);
     }
     fold(ui, "Guess first", !look.narrow, |ui| {
-        prompts(ui, Series::Queries, state);
+        prompts(ui, PromptSeries::Queries, state);
     });
     ui.horizontal_wrapped(|ui| {
         if LabButton::new("Copy as Rust").show(ui, look).clicked() {
@@ -157,7 +163,7 @@ fn sliders(ui: &mut Ui, state: &mut UiState) {
             let mut step = anatomy.step()[i];
             let most = if anatomy.q().is_angle(i) { std::f64::consts::PI } else { 5.0 };
             let name = format!("step of {}", in_signs(name));
-            let typed = Typed::new(ui, -most..=most, false);
+            let typed = NumberInput::new(ui, -most..=most, false);
             let slider = exact(Slider::new(&mut step, -most..=most), 3, &typed).text(&name);
             let response = ui.add(slider);
             response.widget_info(|| WidgetInfo::slider(true, step, &name));
@@ -170,7 +176,7 @@ fn sliders(ui: &mut Ui, state: &mut UiState) {
 }
 
 /// Shows the surroundings of the nearest points, enlarged.
-fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
+fn inset(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
     let Some(close) = state.anatomy.anatomy.close_up() else { return };
     let (rect, _) = ui.allocate_exact_size(vec2(INSET, INSET), bevy_egui::egui::Sense::hover());
     let painter = ui.painter_at(rect);
@@ -185,7 +191,7 @@ fn inset(ui: &mut Ui, look: &Look, state: &mut UiState) {
 }
 
 /// Shows a series of prompts one by one: each asks for a guess before it shows the number.
-pub(crate) fn prompts(ui: &mut Ui, series: Series, state: &mut UiState) {
+pub(crate) fn prompts(ui: &mut Ui, series: PromptSeries, state: &mut UiState) {
     let prompt = series.prompt(state.anatomy.guesses[series as usize].number);
     let label = ui.label(prompt.question);
     if prompt.shown().checker().robot().title() != state.anatomy.anatomy.checker().robot().title() {
@@ -199,7 +205,7 @@ pub(crate) fn prompts(ui: &mut Ui, series: Series, state: &mut UiState) {
         if ui.button("Check").clicked() || entered {
             let checked = prompt.check_text(&guesses.typed);
             if checked.is_ok() && prompt.id == "thick links" {
-                state.did.push(Deed::Guess);
+                state.did.push(HintTask::Guess);
             }
             guesses.is_answered = checked.is_ok();
             guesses.said = Some(checked.map_or_else(|none| none.to_string(), |guess| prompt.words(guess)));
@@ -282,7 +288,7 @@ pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
 pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
     for (link, mut length) in state.anatomy.anatomy.lengths().into_iter().flatten().enumerate() {
         let anatomy = &mut state.anatomy.anatomy;
-        let typed = Typed::new(ui, LENGTHS, false);
+        let typed = NumberInput::new(ui, LENGTHS, false);
         // its name is in the field, so that no row parts them
         let field = DragValue::new(&mut length).range(LENGTHS).speed(0.01).fixed_decimals(2);
         let field = field.custom_parser(|text| typed.read(text)).update_while_editing(false);
@@ -295,7 +301,7 @@ pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
             anatomy.set_length(link, length);
             anatomy.show_annulus = true;
             if anatomy.lengths().is_some_and(|[one, two]| (one - two).abs() >= UNEQUAL) {
-                state.did.push(Deed::UnequalLinks);
+                state.did.push(HintTask::UnequalLinks);
             }
         }
         state.refuse(typed.refused(&response));
@@ -308,7 +314,7 @@ pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
 
 /// A slider that shows `decimals` decimals and keeps its value in full: `fixed_decimals` would round the value itself.
 /// What is typed beside it is entered when it is left.
-pub(crate) fn exact<'a>(slider: Slider<'a>, decimals: usize, typed: &'a Typed) -> Slider<'a> {
+pub(crate) fn exact<'a>(slider: Slider<'a>, decimals: usize, typed: &'a NumberInput) -> Slider<'a> {
     let shown = move |value: f64, _| true_minus(&format!("{value:.decimals$}"));
     slider.custom_formatter(shown).custom_parser(move |text| typed.read(text)).update_while_editing(false)
 }
@@ -320,7 +326,7 @@ pub(crate) fn coordinate(ui: &mut Ui, state: &mut UiState, index: usize, name: &
     let Some(mut value) = anatomy.q().coordinates().get(index).copied() else { return };
     let [least, most] = anatomy.range(index);
     let name = in_signs(name);
-    let typed = Typed::new(ui, least..=most, anatomy.q().is_angle(index));
+    let typed = NumberInput::new(ui, least..=most, anatomy.q().is_angle(index));
     let response = ui.add(exact(Slider::new(&mut value, least..=most), 4, &typed).text(&name));
     response.widget_info(|| WidgetInfo::slider(true, value, &name));
     if response.changed() {

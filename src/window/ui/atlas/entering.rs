@@ -1,6 +1,6 @@
 //! What is typed into the fields of the editor, entered for the thing that each belongs to.
 
-use super::field::{Field, Typed};
+use super::field::{NumberField, TypedText};
 use crate::window::ui::AtlasState;
 use crate::window::ui::number::{no_number, number};
 use motion_lab_core::worlds::World;
@@ -16,7 +16,7 @@ impl AtlasState {
     }
 
     /// The change that sets the number of a field.
-    pub(super) fn setting(&self, field: &Field, to: f64) -> Op {
+    pub(super) fn setting(&self, field: &NumberField, to: f64) -> Op {
         let number = field.number;
         let Some(name) = field.thing.clone() else { return Op::SetBounds { number, to } };
         let known = self.shape.as_ref().filter(|_| self.selected == field.thing);
@@ -52,7 +52,7 @@ impl AtlasState {
 
     /// Enters what was typed into a number field.
     pub(super) fn enter_number(&mut self) {
-        let Some(Typed { field, text, .. }) = self.typed.take() else { return };
+        let Some(TypedText { field, text, .. }) = self.typed.take() else { return };
         if field.thing.as_ref().is_some_and(|name| !self.editor.holds(name)) {
             return;
         }
@@ -70,7 +70,7 @@ impl AtlasState {
     }
 
     /// Begins a drag in a number field.
-    pub(super) fn hold(&mut self, field: Field) {
+    pub(super) fn hold(&mut self, field: NumberField) {
         self.enter();
         self.held = Some(field);
     }

@@ -7,7 +7,7 @@ use bevy_egui::egui::{
     WidgetType,
 };
 
-use super::field::{Field, Typed};
+use super::field::{NumberField, TypedText};
 use crate::window::ui::keys::{AtlasAction, SessionAction, hint};
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
@@ -15,12 +15,12 @@ use crate::window::ui::paint::frame::row_height;
 use crate::window::ui::paint::plate::refusal;
 use crate::window::ui::paint::sheet::steady;
 use crate::window::ui::paint::touch::worded;
-use crate::window::ui::{AtlasState, Look};
+use crate::window::ui::{AtlasState, FrameColours};
 use motion_lab_core::picture::Role;
 use motion_lab_sim::atlas::{Number, Op, Template};
 
 /// The most numbers of one thing that have fields; the others are dragged on the paper.
-const MOST_FIELDS: usize = 120;
+const MAX_FIELDS: usize = 120;
 
 /// The most letters of a name that leaves room for another number beside its own.
 const SHORT: usize = 7;
@@ -32,7 +32,7 @@ const LONG: usize = 12;
 const LIST: f32 = 240.0;
 
 /// Shows the panel.
-pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
+pub(super) fn edit_panel(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasState) {
     ui.horizontal(|ui| {
         let [back, again] = atlas.can_undo();
         if LabButton::new("Undo").enabled(back).show(ui, look).on_hover_text(hint(SessionAction::Undo)).clicked() {
@@ -71,7 +71,7 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
 }
 
 /// Shows a button for each thing that can be added, and a list of the robots.
-fn add_buttons(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
+fn add_buttons(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasState) {
     ui.horizontal_wrapped(|ui| {
         for template in Template::THINGS {
             let words = format!("Add {}", template.title());
@@ -118,7 +118,7 @@ fn name_field(ui: &mut Ui, atlas: &mut AtlasState, words: &str) {
 }
 
 /// Shows the name and the numbers of what is selected.
-fn thing(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
+fn thing(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasState) {
     ui.horizontal(|ui| {
         name_field(ui, atlas, "name");
         if LabButton::new("Delete").show(ui, look).on_hover_text(hint(AtlasAction::Delete)).clicked() {
@@ -153,8 +153,8 @@ fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str) {
     let mut is_held = false;
     let mut is_typed = false;
     Grid::new("numbers").show(ui, |ui| {
-        for (i, number) in numbers.iter().enumerate().take(MOST_FIELDS) {
-            let own = Field { thing: thing.clone(), number: i };
+        for (i, number) in numbers.iter().enumerate().take(MAX_FIELDS) {
+            let own = NumberField { thing: thing.clone(), number: i };
             field(ui, atlas, of, number, &own);
             is_typed |= atlas.typed.as_ref().is_some_and(|typed| typed.field == own);
             is_held |= atlas.held.as_ref() == Some(&own);
@@ -163,8 +163,8 @@ fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str) {
             }
         }
     });
-    if numbers.len() > MOST_FIELDS {
-        ui.label(format!("{} more: drag its corners.", numbers.len() - MOST_FIELDS));
+    if numbers.len() > MAX_FIELDS {
+        ui.label(format!("{} more: drag its corners.", numbers.len() - MAX_FIELDS));
     }
     // a field may have gone, and what was done in it goes on no longer
     if !is_typed {
@@ -176,7 +176,7 @@ fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str) {
 }
 
 /// Shows the field of a number. What is typed changes the world when it is done, what is dragged when it is let go.
-fn field(ui: &mut Ui, atlas: &mut AtlasState, of: &str, number: &Number, own: &Field) {
+fn field(ui: &mut Ui, atlas: &mut AtlasState, of: &str, number: &Number, own: &NumberField) {
     let label = ui.label(&number.name);
     let (mut value, format) = (number.value, ui.style().number_formatter.clone());
     let (shown, text) = (RefCell::new(String::new()), RefCell::new(None));
@@ -201,7 +201,7 @@ fn field(ui: &mut Ui, atlas: &mut AtlasState, of: &str, number: &Number, own: &F
         atlas.typed = None;
     }
     if let Some(text) = text.filter(|_| response.changed()) {
-        let typed = Typed { field: own.clone(), text, was: number.value };
+        let typed = TypedText { field: own.clone(), text, was: number.value };
         // a text that was brought back to what is shown changes nothing
         atlas.typed = Some(typed).filter(|typed| typed.text != shown);
     }
@@ -231,7 +231,7 @@ fn field(ui: &mut Ui, atlas: &mut AtlasState, of: &str, number: &Number, own: &F
 }
 
 /// Shows the list of everything that the world holds. A click selects.
-fn everything(ui: &mut Ui, look: &Look, atlas: &mut AtlasState) {
+fn everything(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasState) {
     let count = atlas.editor.things().len();
     fold(ui, "Everything here", !look.narrow, |ui| {
         // what is looked for stays in sight while it leaves things out

@@ -12,7 +12,7 @@ use motion_lab_sim::capture::{self, AtlasSheet, Captured};
 use motion_lab_sim::recording::printed_as;
 
 /// Largest number of robots whose configurations are described in words.
-const TOLD: usize = 12;
+const NAMED_OF_CROWD: usize = 12;
 
 impl AtlasState {
     /// The world with its robots as shown: while it is edited where they start, else where they were put.
@@ -106,9 +106,9 @@ impl AtlasState {
             Some(format!("{}: {}", robot.name, printed_as(Some(about), &robot.start)))
         });
         let told = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others);
-        let mut robots: Vec<String> = told.take(TOLD).collect();
+        let mut robots: Vec<String> = told.take(NAMED_OF_CROWD).collect();
         let more = self.world().robots.len() - robots.len();
-        if robots.len() == TOLD && more > 0 {
+        if robots.len() == NAMED_OF_CROWD && more > 0 {
             robots.push(format!("and {more} more"));
         }
         let refusal = self.refusal().map_or_else(String::new, |r| format!(" {r}."));

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::field::{Field, Typed};
+use super::field::{NumberField, TypedText};
 use motion_lab_core::configuration::{AnyConfiguration, Kinds};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::picture::{Item, Picture, world as picture_of};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::anatomy::WorldSource;
-use motion_lab_sim::atlas::{Atlas, EditShape, Editor, GridLayer, Op, Refusal, Template};
+use motion_lab_sim::atlas::{Atlas, EditShape, Editor, GridLayer, Op, TeleportRefusal, Template};
 
 /// The effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -63,7 +63,7 @@ pub struct AtlasState {
     pub robot: usize,
     /// Where the pointer was pressed.
     pub pressed: Option<Point2>,
-    pub(super) refused: Option<(AnyConfiguration, Refusal)>,
+    pub(super) refused: Option<(AnyConfiguration, TeleportRefusal)>,
     /// Where releasing the pointer puts the robot.
     pub(super) wanted: Option<AnyConfiguration>,
     /// The side of a grid cell, metres.
@@ -75,9 +75,9 @@ pub struct AtlasState {
     /// Its shape, the corners in the order that they had when it was selected.
     pub(super) shape: Option<EditShape>,
     /// What is typed into a number field and not yet entered.
-    pub(super) typed: Option<Typed>,
+    pub(super) typed: Option<TypedText>,
     /// The number field that is dragged.
-    pub(super) held: Option<Field>,
+    pub(super) held: Option<NumberField>,
     /// The text of its name field.
     pub name_text: String,
     /// Whether that text was typed and is not yet entered.
@@ -285,7 +285,7 @@ impl AtlasState {
     pub fn refusal(&self) -> Option<String> {
         let (_, refusal) = self.refused.as_ref()?;
         let offer = match refusal {
-            Refusal::Overlap { nearest: Some(_), .. } => "; click the ring for the nearest free place",
+            TeleportRefusal::Overlap { nearest: Some(_), .. } => "; click the ring for the nearest free place",
             _ => "",
         };
         Some(format!("{refusal}{offer}"))
@@ -313,7 +313,7 @@ impl AtlasState {
 
     /// Takes the offered place if the point is within `reach` metres of it. Returns whether the robot was put there.
     pub fn take_offer(&mut self, at: Point2, reach: f64) -> bool {
-        let Some((_, Refusal::Overlap { nearest: Some(offer), .. })) = &self.refused else { return false };
+        let Some((_, TeleportRefusal::Overlap { nearest: Some(offer), .. })) = &self.refused else { return false };
         let (q, Some(robot)) = (offer.q, self.atlas.robots().get(self.robot)) else { return false };
         if (robot.robot.reference(&q) - at).norm() > reach {
             return false;
@@ -356,7 +356,7 @@ mod tests {
         atlas.ask(Point2::new(5.5, 5.0), Some(1.2), true);
         assert_eq!(atlas.atlas().robots()[0].q, before);
         assert!(atlas.refusal().unwrap().starts_with("would overlap the west pillar"), "{:?}", atlas.refusal());
-        let Some((_, Refusal::Overlap { nearest: Some(offer), .. })) = atlas.refused.clone() else {
+        let Some((_, TeleportRefusal::Overlap { nearest: Some(offer), .. })) = atlas.refused.clone() else {
             panic!("an offer")
         };
         let at = atlas.atlas().robots()[0].robot.reference(&offer.q);

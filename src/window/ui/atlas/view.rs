@@ -7,16 +7,16 @@ use bevy_egui::egui::{
 use super::panel::edit_panel;
 use super::state::{AtlasState, Mode};
 use crate::window::ui::keys::{AtlasAction, SessionAction, keep_arrows};
-use crate::window::ui::number::Typed;
+use crate::window::ui::number::NumberInput;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::frame::next_hint;
-use crate::window::ui::paint::plate::{Place, plate, refusal};
-use crate::window::ui::paint::sheet::{Sheet, sheet, split};
+use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
+use crate::window::ui::paint::sheet::{ScreenSheet, sheet, split};
 use crate::window::ui::paint::touch::worded;
-use crate::window::ui::{Cockpit, Command, Dashboard, Look, SessionCommand, UiState, readout};
+use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, SessionCommand, UiState, readout};
 use motion_lab_core::picture::{Item, Picture, ScreenPoint, pick};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::manifest::{Deed, Widget};
+use motion_lab_sim::manifest::{HintTask, Widget};
 
 /// Width of the panel beside the paper, points.
 const SIDE: f32 = 300.0;
@@ -25,7 +25,13 @@ const SIDE: f32 = 300.0;
 const DRAGGED: f64 = 8.0;
 
 /// Shows the widget.
-pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn atlas_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let words = Widget::Atlas.text();
     if !look.low {
         crate::window::ui::menu::head(ui, words, model, look, state, commands);
@@ -63,7 +69,8 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
         keep_arrows(ui, on.response.id);
     }
     if let Some(template) = placing {
-        let place = Place { at: paper.center_top() + vec2(0.0, 8.0), pivot: Align2::CENTER_TOP, width: paper.width() };
+        let place =
+            PlateAnchor { at: paper.center_top() + vec2(0.0, 8.0), pivot: Align2::CENTER_TOP, width: paper.width() };
         plate(ui.ctx(), "placing", place, false, look, |ui| {
             ui.label(worded(ui, &format!("Click where the {} goes. Escape drops it.", template.title())))
         });
@@ -78,13 +85,13 @@ pub fn atlas_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSta
         } else {
             (paper.center_bottom() - vec2(0.0, 8.0), Align2::CENTER_BOTTOM)
         };
-        let place = Place { at, pivot, width: (paper.width() - 32.0).min(440.0) };
+        let place = PlateAnchor { at, pivot, width: (paper.width() - 32.0).min(440.0) };
         plate(ui.ctx(), "refused", place, false, look, |ui| refusal(ui, words, look));
     }
     match state.atlas.mode {
         Mode::Put => {
             if put(&on, &mut state.atlas) {
-                state.did.push(Deed::Put);
+                state.did.push(HintTask::Put);
             }
         }
         Mode::Edit => match placing {
@@ -139,7 +146,7 @@ pub fn act_on_thing(action: AtlasAction, atlas: &mut AtlasState) {
 
 /// Handles the pointer in put mode: a click puts the robot there, a drag turns it, a click on an offer takes it.
 /// Returns whether the robot was put somewhere.
-fn put(on: &Sheet, atlas: &mut AtlasState) -> bool {
+fn put(on: &ScreenSheet, atlas: &mut AtlasState) -> bool {
     let Some(at) = on.held_anywhere() else {
         atlas.pressed = None;
         atlas.forget_wanted();
@@ -163,7 +170,7 @@ fn put(on: &Sheet, atlas: &mut AtlasState) -> bool {
 }
 
 /// Handles the pointer in edit mode: a press selects the thing there, a drag moves it or one of its handles.
-fn edit(on: &Sheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
+fn edit(on: &ScreenSheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
     let Some(at) = on.held_anywhere() else {
         if atlas.drag.is_some() {
             // the button came up where no one saw it
@@ -208,7 +215,13 @@ fn thing(item: &Item) -> Option<&str> {
     id.strip_prefix("place/").and_then(|rest| rest.rsplit_once('/')).map(|(name, _)| name)
 }
 
-fn beside_the_paper(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn beside_the_paper(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     ui.horizontal_wrapped(|ui| {
         let present = state.atlas.label();
         let choice =
@@ -306,7 +319,7 @@ fn put_panel(ui: &mut Ui, state: &mut UiState) {
 }
 
 /// Offers to put the robot there in the run under way, if it lives there, and to begin a run from here.
-fn into_the_run(ui: &mut Ui, model: &Dashboard, look: &Look, state: &UiState, commands: &mut Vec<Command>) {
+fn into_the_run(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &UiState, commands: &mut Vec<Command>) {
     let atlas = state.atlas.atlas();
     let Some(robot) = atlas.robots().get(state.atlas.robot) else { return };
     let lives_there = |c: &Cockpit| c.world.name == atlas.world().name && c.has(&robot.name);
@@ -330,7 +343,7 @@ fn measure_panel(ui: &mut Ui, state: &mut UiState) {
     ui.label("The grid is derived from the world, at any resolution. Point somewhere: the exact distance stands beside the grid's.");
     let mut resolution = state.atlas.resolution;
     let slider = Slider::new(&mut resolution, 0.05..=1.0).logarithmic(true).fixed_decimals(2).suffix(" m").text("cell");
-    let typed = Typed::new(ui, 0.05..=1.0, false);
+    let typed = NumberInput::new(ui, 0.05..=1.0, false);
     let response = ui.add(slider.custom_parser(|text| typed.read(text)).update_while_editing(false));
     response.widget_info(|| WidgetInfo::slider(true, resolution, "cell size in metres"));
     if response.changed() {

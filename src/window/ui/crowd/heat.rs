@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{Rect, pos2};
 
-use crate::window::ui::Look;
+use crate::window::ui::FrameColours;
 use crate::window::ui::paint::polygons::Polygons;
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::num::{greater, lesser};
@@ -13,7 +13,7 @@ use motion_lab_sim::simulation::{Happening, TickMark};
 const ALONG: f64 = 96.0;
 
 /// Least side of a square, metres.
-const LEAST: f64 = 0.25;
+const MIN_SQUARE: f64 = 0.25;
 
 /// Opacity of the square in which the most contacts began.
 const FULL: f64 = 0.7;
@@ -33,7 +33,7 @@ impl Heat {
     /// The contacts up to `tick` of the robots with these ids, in a world within `bounds`.
     pub fn of(marks: &[TickMark], tick: u64, ids: std::ops::Range<u32>, bounds: &Aabb) -> Self {
         let (w, h) = (bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
-        let side = greater(LEAST, greater(w, h) / ALONG);
+        let side = greater(MIN_SQUARE, greater(w, h) / ALONG);
         let cells = |length: f64| (length / side).ceil().clamp(1.0, 2.0 * ALONG) as usize;
         let (columns, rows) = (cells(w), cells(h));
         let mut heat = Heat { low: bounds.min, side, columns, counts: vec![0; columns * rows] };
@@ -48,7 +48,7 @@ impl Heat {
     }
 
     /// The squares in which contacts began, on the screen.
-    pub fn squares(&self, fit: &Fit, look: &Look) -> Polygons {
+    pub fn squares(&self, fit: &Fit, look: &FrameColours) -> Polygons {
         let mut out = Polygons::default();
         let most = f64::from(self.counts.iter().copied().max().unwrap_or(0));
         let at = |column: usize, row: usize| {

@@ -4,15 +4,22 @@ use bevy_egui::egui::{
     Align, Button, Layout, RichText, ScrollArea, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, vec2,
 };
 
-use super::values::Crowd;
+use super::values::CrowdView;
 use crate::window::ui::dashboard::hand::drive;
 use crate::window::ui::dashboard::values::thousands;
 use crate::window::ui::paint::frame::row_height;
-use crate::window::ui::{Command, Look, UiState};
+use crate::window::ui::{Command, FrameColours, UiState};
 use motion_lab_core::picture::Role;
 
 /// Shows the search and the robots found, in `height` points. Only the rows that are seen are laid out.
-pub fn list(ui: &mut Ui, crowd: &Crowd, height: f32, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn list(
+    ui: &mut Ui,
+    crowd: &CrowdView,
+    height: f32,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let top = ui.cursor().top();
     let field = TextEdit::singleline(&mut state.crowd.search).hint_text("Find a robot").desired_width(f32::INFINITY);
     let field = field.vertical_align(Align::Center).min_size(vec2(0.0, ui.spacing().interact_size.y));
@@ -41,7 +48,15 @@ pub fn list(ui: &mut Ui, crowd: &Crowd, height: f32, look: &Look, state: &mut Ui
 }
 
 /// Shows a robot's row: its name, and at the right end how often it touched something.
-fn entry(ui: &mut Ui, crowd: &Crowd, id: u32, row: f32, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn entry(
+    ui: &mut Ui,
+    crowd: &CrowdView,
+    id: u32,
+    row: f32,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let (Some(name), Some(robot)) = (crowd.name(id), crowd.place(id).and_then(|place| crowd.now.get(place))) else {
         return;
     };

@@ -8,13 +8,13 @@ use motion_lab_core::robots::{AnyRobot, Robot};
 /// Sizes and shapes of a crowd's robots, by their places. What every frame reads of each is apart from the rest.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Members {
-    circles: Vec<Option<Circle>>,
+    circles: Vec<Option<MemberCircle>>,
     robots: Vec<Option<(AnyRobot, AnyConfiguration)>>,
 }
 
 /// A circle about a robot's reference point that holds it at every configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Circle {
+pub struct MemberCircle {
     /// An arm's base; `None` for a robot whose first two coordinates are its place.
     base: Option<Point2>,
     /// Its radius, metres.
@@ -28,12 +28,12 @@ pub struct Circle {
 impl Members {
     /// Adds a robot, with a configuration of its space; `None` for one of a kind that is not the lab's.
     pub fn push(&mut self, robot: Option<(AnyRobot, AnyConfiguration)>) {
-        self.circles.push(robot.and_then(|(robot, like)| Circle::of(&robot, &like)));
+        self.circles.push(robot.and_then(|(robot, like)| MemberCircle::of(&robot, &like)));
         self.robots.push(robot);
     }
 
     /// The circle of the robot at a place.
-    pub fn circle(&self, place: usize) -> Option<&Circle> {
+    pub fn circle(&self, place: usize) -> Option<&MemberCircle> {
         self.circles.get(place)?.as_ref()
     }
 
@@ -49,9 +49,9 @@ impl Members {
     }
 }
 
-impl Circle {
+impl MemberCircle {
     /// The circle of a robot. A car's holds its trailer too, whether it has one now or not.
-    fn of(robot: &AnyRobot, like: &AnyConfiguration) -> Option<Circle> {
+    fn of(robot: &AnyRobot, like: &AnyConfiguration) -> Option<MemberCircle> {
         let straight = like.with_coordinates(&vec![0.0; like.coordinates().len()])?;
         let base = robot.annulus().map(|(base, _)| base);
         let about = base.unwrap_or(Point2::origin());
@@ -72,7 +72,7 @@ impl Circle {
         let radius = parts.map(reach).fold(0.0, greater);
         let (w, h) = (bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
         let middle = if base.is_some() { Vector2::zeros() } else { bounds.centre() - about };
-        Some(Circle { base, radius, size: greater(w, h), middle })
+        Some(MemberCircle { base, radius, size: greater(w, h), middle })
     }
 
     /// The reference point of the robot at these coordinates.

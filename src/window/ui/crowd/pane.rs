@@ -10,9 +10,10 @@ use bevy_egui::egui::{
 use super::heat::Heat;
 use super::list::list;
 use super::robots::robots;
-use super::values::{Crowd, CrowdRobot};
+use super::values::{CrowdRobot, CrowdView};
 use crate::window::ui::dashboard::hand::{drive, handles};
-use crate::window::ui::dashboard::pane::{Free, coming, door_clicked, in_hand, in_reach, point_out, take_in_hand};
+use crate::window::ui::dashboard::in_hand::{Free, in_hand, in_reach, take_in_hand};
+use crate::window::ui::dashboard::pane::{door_clicked, pending_input, point_out};
 use crate::window::ui::dashboard::values::thousands;
 use crate::window::ui::dashboard::words::{by_whom, robot_words};
 use crate::window::ui::dashboard::{doors, pane};
@@ -22,7 +23,7 @@ use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::magnifier::{BUTTONS, magnified, magnifier};
 use crate::window::ui::paint::scale_bar::scale_bar;
 use crate::window::ui::paint::touch::touched;
-use crate::window::ui::{Cockpit, Command, Look, UiState};
+use crate::window::ui::{Cockpit, Command, FrameColours, UiState};
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::picture::{Anchor, Drawing, Face, Fit, Item, Picture, Role};
 use motion_lab_sim::simulation::{History, TickMark};
@@ -41,14 +42,14 @@ const REACH: f64 = 8.0;
 const TOUCH: f64 = 22.0;
 
 /// Largest number of robots in view that carry their names.
-const MOST_NAMED: usize = 80;
+const MAX_NAMED: usize = 80;
 
 /// What the pane shows.
 pub struct CrowdPane<'a> {
     /// The world, with the robot that is picked.
     pub cockpit: &'a Cockpit,
     /// All its robots.
-    pub crowd: &'a Crowd,
+    pub crowd: &'a CrowdView,
     /// The run's past.
     pub history: &'a History,
     /// The tick that is shown.
@@ -60,7 +61,7 @@ pub fn crowd_pane(
     ui: &mut Ui,
     shown: &CrowdPane,
     rect: Rect,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -107,7 +108,7 @@ fn world(
     ui: &mut Ui,
     shown: &CrowdPane,
     paper: Rect,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) -> Fit {
@@ -125,7 +126,7 @@ fn world(
         fit = camera.fit(&whole, &bounds, f64::from(ui.pixels_per_point()));
     }
     let painter = ui.painter_at(paper);
-    canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
+    canvas::paint_cached(&painter, &cockpit.world, paper, &fit, look);
     if state.crowd.heat {
         painter.add(Shape::mesh(heat(ui, shown).squares(&fit, look).0));
     }
@@ -170,7 +171,7 @@ fn world(
     if let Some(robot) = armed {
         in_hand(ui, robot, paper, Free { taken: BUTTONS, of: None }, look, state);
     }
-    coming(ui, cockpit, paper, look);
+    pending_input(ui, cockpit, paper, look);
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
     }
@@ -208,15 +209,15 @@ fn pick(shown: &CrowdPane, near: Option<u32>, picked: Option<u32>, state: &mut U
 }
 
 /// The names of the robots in view, where these are few.
-fn names(crowd: &Crowd, paper: Rect, fit: &Fit) -> Vec<Item> {
+fn names(crowd: &CrowdView, paper: Rect, fit: &Fit) -> Vec<Item> {
     let is_seen = |place: &usize| {
         crowd.spot(*place).is_some_and(|spot| {
             let [x, y] = fit.screen_from_world(spot.centre);
             paper.contains(pos2(x as f32, y as f32))
         })
     };
-    let seen: Vec<usize> = (0..crowd.now.len()).filter(is_seen).take(MOST_NAMED + 1).collect();
-    if seen.len() > MOST_NAMED {
+    let seen: Vec<usize> = (0..crowd.now.len()).filter(is_seen).take(MAX_NAMED + 1).collect();
+    if seen.len() > MAX_NAMED {
         return Vec::new();
     }
     let label = |place: usize| {
@@ -236,7 +237,7 @@ fn heat(ui: &Ui, shown: &CrowdPane) -> Arc<Heat> {
     let last = tick.checked_sub(1).and_then(|i| marks.get(i)).copied();
     let key = (tick, last, shown.cockpit.world.bounds);
     let id = Id::new(("heat", crowd.first));
-    let kept: Option<(KeptHeat, Arc<Heat>)> = ui.data(|d| d.get_temp(id));
+    let kept: Option<(HeatKey, Arc<Heat>)> = ui.data(|d| d.get_temp(id));
     if let Some((_, heat)) = kept.filter(|(k, _)| *k == key) {
         return heat;
     }
@@ -247,10 +248,10 @@ fn heat(ui: &Ui, shown: &CrowdPane) -> Arc<Heat> {
 }
 
 /// What kept counts of contacts depend on: how many marks there are up to now, the last of them, and the world's box.
-type KeptHeat = (usize, Option<TickMark>, Aabb);
+type HeatKey = (usize, Option<TickMark>, Aabb);
 
 /// Shows how many contacts there were, and a link that shows where they began.
-fn heat_link(ui: &mut Ui, shown: &CrowdPane, look: &Look, state: &mut UiState) {
+fn heat_link(ui: &mut Ui, shown: &CrowdPane, look: &FrameColours, state: &mut UiState) {
     let contacts = shown.crowd.contacts();
     let words = format!("contacts: {}", thousands(contacts));
     ui.label(RichText::new(words).monospace().color(look.colour(Role::Muted)));
@@ -263,7 +264,14 @@ fn heat_link(ui: &mut Ui, shown: &CrowdPane, look: &Look, state: &mut UiState) {
 }
 
 /// Shows who is picked: its name, buttons to follow and to drive it, its words.
-fn picked(ui: &mut Ui, shown: &CrowdPane, paper: Rect, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn picked(
+    ui: &mut Ui,
+    shown: &CrowdPane,
+    paper: Rect,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     for robot in &shown.cockpit.robots {
         let name = RichText::new(by_whom(robot, robot.name.clone())).text_style(TextStyle::Body).strong();
         ui.label(name.color(look.colour(Role::Text)));

@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use bevy_egui::egui::{Color32, Pos2, Rect, Vec2, pos2};
 
-use super::values::{Crowd, CrowdRobot};
-use crate::window::ui::Look;
+use super::values::{CrowdRobot, CrowdView};
+use crate::window::ui::FrameColours;
 use crate::window::ui::paint::polygons::Polygons;
 use motion_lab_core::geometry::{Footprint, Placed, Point2, Shape};
 use motion_lab_core::num::sin_cos;
@@ -18,7 +18,7 @@ const SMALL: f64 = 4.0;
 const SHOWS_HEADING: f64 = 9.0;
 
 /// Least side of such a square, points.
-const LEAST: f32 = 2.0;
+const MIN_SIDE: f32 = 2.0;
 
 /// Radius on the screen below which a link has no round ends, points.
 const SQUARE: f32 = 1.0;
@@ -29,10 +29,10 @@ const BODY: f64 = 0.85;
 /// The robots that the paper shows, as polygons. `role` says by a robot's id and its state in which colour it is drawn;
 /// `None` leaves it out.
 pub fn robots(
-    crowd: &Crowd,
+    crowd: &CrowdView,
     paper: Rect,
     fit: &Fit,
-    look: &Look,
+    look: &FrameColours,
     mut role: impl FnMut(u32, &CrowdRobot) -> Option<Role>,
 ) -> Polygons {
     let mut out = Polygons::default();
@@ -53,7 +53,7 @@ pub fn robots(
         let size = spot.size * scale;
         if size < SMALL {
             let middle = crowd.middle(place) * scale;
-            let side = if size as f32 > LEAST { size as f32 } else { LEAST };
+            let side = if size as f32 > MIN_SIDE { size as f32 } else { MIN_SIDE };
             let centre = centre + Vec2::new(middle.x as f32, -middle.y as f32);
             out.rect(Rect::from_center_size(centre, Vec2::splat(side)), solid);
             continue;
@@ -84,7 +84,7 @@ fn heading(footprint: &Footprint, turned: Option<f64>) -> Option<[Point2; 3]> {
 
 /// The colours of roles, each made once: blending in linear light takes powers.
 struct Inks<'a> {
-    look: &'a Look,
+    look: &'a FrameColours,
     made: Vec<(Role, [Color32; 2])>,
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::values::Crowd;
+use super::values::CrowdView;
 
 /// The state of the panes that show crowds.
 #[derive(Clone, Debug, Default)]
@@ -18,7 +18,7 @@ pub struct CrowdState {
     /// Whether the list holds only robots with contacts.
     pub with_contacts: bool,
     /// The robots found last.
-    pub found: Option<Found>,
+    pub found: Option<NameMatches>,
 }
 
 /// A robot that is picked.
@@ -32,7 +32,7 @@ pub struct Picked {
 
 /// The robots whose names hold what was searched.
 #[derive(Clone, Debug)]
-pub struct Found {
+pub struct NameMatches {
     names: Arc<[String]>,
     search: String,
     /// Their ids, ascending.
@@ -41,26 +41,26 @@ pub struct Found {
 
 impl CrowdState {
     /// The robot of this crowd that is picked.
-    pub fn picked_in(&self, crowd: &Crowd) -> Option<&Picked> {
+    pub fn picked_in(&self, crowd: &CrowdView) -> Option<&Picked> {
         self.picked.as_ref().filter(|p| crowd.name(p.id) == Some(&p.name))
     }
 
     /// Picks a robot of this crowd, or none.
-    pub fn pick(&mut self, crowd: &Crowd, id: Option<u32>) {
+    pub fn pick(&mut self, crowd: &CrowdView, id: Option<u32>) {
         self.picked = id.and_then(|id| Some(Picked { id, name: crowd.name(id)?.to_owned() }));
         self.follows &= self.picked.is_some();
     }
 
     /// The ids of the robots whose names hold the search, whatever the case of its letters.
-    pub fn found(&mut self, crowd: &Crowd) -> Arc<[u32]> {
+    pub fn found(&mut self, crowd: &CrowdView) -> Arc<[u32]> {
         let search = self.search.trim().to_lowercase();
-        let is_same = |f: &&Found| Arc::ptr_eq(&f.names, &crowd.names) && f.search == search;
+        let is_same = |f: &&NameMatches| Arc::ptr_eq(&f.names, &crowd.names) && f.search == search;
         let found = match self.found.as_ref().filter(is_same) {
             Some(found) => Arc::clone(&found.ids),
             None => {
                 let all = crowd.names.iter().zip(crowd.first..);
                 let ids = all.filter(|(name, _)| name.to_lowercase().contains(&search)).map(|(_, id)| id).collect();
-                let found = Found { names: Arc::clone(&crowd.names), search, ids };
+                let found = NameMatches { names: Arc::clone(&crowd.names), search, ids };
                 Arc::clone(&self.found.insert(found).ids)
             }
         };

@@ -6,8 +6,8 @@ use super::heat::Heat;
 use super::members::Members;
 use super::robots::robots;
 use super::state::CrowdState;
-use super::values::{Crowd, CrowdRobot, Stance};
-use crate::window::ui::Look;
+use super::values::{CrowdRobot, CrowdView, Stance};
+use crate::window::ui::FrameColours;
 use crate::window::ui::paint::camera::Camera;
 use motion_lab_core::configuration::{Configuration as _, Coordinates};
 use motion_lab_core::geometry::{Aabb, Footprint, Point2, Pose2, Vector2};
@@ -44,15 +44,15 @@ fn over(robots: &[Robot]) -> Arc<Vec<CrowdRobot>> {
 }
 
 /// A crowd of robots of kinds that are not the lab's.
-fn crowd(before: &[Robot], now: &[Robot], between: f64) -> Crowd {
+fn crowd(before: &[Robot], now: &[Robot], between: f64) -> CrowdView {
     let names = (0..now.len()).map(|i| format!("Rover {}", i + 7)).collect();
     let mut members = Members::default();
     now.iter().for_each(|_| members.push(None));
-    Crowd { first: 7, names, members: Arc::new(members), now: over(now), before: over(before), between }
+    CrowdView { first: 7, names, members: Arc::new(members), now: over(now), before: over(before), between }
 }
 
 /// A crowd of one robot of a kind of the lab's, on its way from one configuration to another.
-fn one(kind: &str, before: &[f64], now: &[f64], between: f64) -> Crowd {
+fn one(kind: &str, before: &[f64], now: &[f64], between: f64) -> CrowdView {
     let mut members = Members::default();
     members.push(AnyRobot::of_kind(kind, now));
     let stands = |q: &[f64]| {
@@ -60,10 +60,10 @@ fn one(kind: &str, before: &[f64], now: &[f64], between: f64) -> Crowd {
         Arc::new(vec![CrowdRobot { stance, flash: false, contacts: 0 }])
     };
     let names = Arc::from(["one".to_owned()]);
-    Crowd { first: 0, names, members: Arc::new(members), now: stands(now), before: stands(before), between }
+    CrowdView { first: 0, names, members: Arc::new(members), now: stands(now), before: stands(before), between }
 }
 
-fn still(robots: &[Robot]) -> Crowd {
+fn still(robots: &[Robot]) -> CrowdView {
     crowd(robots, robots, 1.0)
 }
 
@@ -114,7 +114,7 @@ fn the_nearest_robot_is_that_whose_box_is_nearest() {
 fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
     // 0.1 m are a point: too small for an outline
     let dots = still(&[rover(5.0, 5.0, 0.1), rover(39.0, 19.0, 0.1), rover(60.0, 5.0, 0.1)]);
-    let look = Look::from(Theme::Light);
+    let look = FrameColours::from(Theme::Light);
     let mesh = robots(&dots, paper(), &whole(), &look, |_, _| Some(Role::Robot)).0;
     assert_eq!(mesh.vertices.len(), 8, "two squares; the third is beside the paper");
     assert!(mesh.vertices.iter().all(|v| v.color == look.colour(Role::Robot)));
@@ -143,8 +143,8 @@ fn a_crowd_is_one_mesh_of_what_the_paper_shows() {
 
 #[test]
 fn robots_are_drawn_on_their_way_and_not_while_they_leap() {
-    let middle = |crowd: &Crowd| {
-        let mesh = robots(crowd, paper(), &whole(), &Look::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
+    let middle = |crowd: &CrowdView| {
+        let mesh = robots(crowd, paper(), &whole(), &FrameColours::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
         mesh.calc_bounds().center()
     };
     let on_the_way = crowd(&[rover(5.0, 5.0, 1.0)], &[rover(5.4, 5.2, 1.0)], 0.25);
@@ -158,7 +158,7 @@ fn robots_are_drawn_on_their_way_and_not_while_they_leap() {
         (Footprint::rects([(at, Point2::new(-1.0, -0.5), Point2::new(1.0, 0.5))]), None, 0)
     };
     let turning = crowd(&[car(0.0)], &[car(0.2)], 0.5);
-    let mesh = robots(&turning, paper(), &whole(), &Look::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
+    let mesh = robots(&turning, paper(), &whole(), &FrameColours::from(Theme::Dark), |_, _| Some(Role::Robot)).0;
     // the corner (1, 0.5) turned by 0.1, half of 0.2, is at (0.9451, 0.5973)
     let near = |v: &bevy_egui::egui::epaint::Vertex| (v.pos - pos2(59.45, 144.03)).length();
     assert!(mesh.vertices.iter().map(near).any(|gap| gap < 0.75));
@@ -201,7 +201,7 @@ fn a_robot_of_the_labs_is_drawn_on_its_way_in_its_chart() {
     assert!((pose.x - 3.1).abs() < 1e-12 && (pose.theta.abs() - std::f64::consts::PI).abs() < 1e-12, "{pose:?}");
     assert!((turning.spot(0).unwrap().centre - Point2::new(3.1, 4.0)).norm() < 1e-12);
     // what was put there, or has a trailer since, is where it is
-    let there = |crowd: &Crowd| *crowd.drawn(0).unwrap().0.parts()[0].pose();
+    let there = |crowd: &CrowdView| *crowd.drawn(0).unwrap().0.parts()[0].pose();
     assert_eq!(there(&one("hitch", &[3.0, 4.0, 0.0], &[3.6, 4.0, 0.0], 0.5)).x, 3.6);
     assert_eq!(there(&one("hitch", &[3.0, 4.0, 0.0], &[3.2, 4.0, 0.0, 0.0], 0.5)).x, 3.2);
     assert_eq!(there(&one("reach", &[0.1, 0.0], &[1.9, 0.0], 0.5)).theta, 1.9);
@@ -209,7 +209,7 @@ fn a_robot_of_the_labs_is_drawn_on_its_way_in_its_chart() {
     // a car that was given its trailer in the run has it, although it began without
     let alone = [3.0, 4.0, 0.0];
     let towing = one("hitch", &[3.0, 4.0, 0.0, 0.2], &[3.0, 4.0, 0.0, 0.2], 1.0);
-    let given = Crowd { now: towing.now.clone(), ..one("hitch", &alone, &alone, 1.0) };
+    let given = CrowdView { now: towing.now.clone(), ..one("hitch", &alone, &alone, 1.0) };
     assert_eq!(given.footprint(0), towing.footprint(0));
     assert!(given.footprint(0).unwrap().0.is_valid() && given.footprint(0).unwrap().0.parts().len() == 2);
     // a rover's pointer is no part of its footprint
@@ -237,7 +237,7 @@ fn contacts_are_counted_where_they_began() {
     let heat = Heat::of(&marks, 3, 7..10, &YARD);
     assert_eq!(heat.counts.iter().sum::<u32>(), 3, "not those of others, of other kinds, or later ones");
     // 96 squares along 40 m, 4.17 points each
-    let mesh = heat.squares(&whole(), &Look::from(Theme::Light)).0;
+    let mesh = heat.squares(&whole(), &FrameColours::from(Theme::Light)).0;
     assert_eq!(mesh.vertices.len(), 8, "two squares");
     let square =
         |i: usize| Rect::from_points(&mesh.vertices[4 * i..4 * i + 4].iter().map(|v| v.pos).collect::<Vec<_>>());

@@ -1,4 +1,4 @@
-//! `Crowd`, the robots of a world of many, as plain values.
+//! `CrowdView`, the robots of a world of many, as plain values.
 
 use std::sync::Arc;
 
@@ -9,10 +9,10 @@ use motion_lab_core::geometry::{Aabb, Footprint, Point2, Vector2};
 use motion_lab_core::num::{greater, lesser};
 
 /// Largest number of robots of a world that are shown one by one, each with its words. More are a crowd.
-pub const MOST_SHOWN_EACH: usize = 3;
+pub const MAX_SHOWN_EACH: usize = 3;
 
 /// Farthest that a robot moves in a tick, metres. One that moved farther was put there.
-const LEAP: f64 = 0.5;
+const MAX_DRIVEN: f64 = 0.5;
 
 /// One robot of a crowd after a tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +37,7 @@ pub enum Stance {
 
 /// A circle on the floor that holds a robot, and how large the robot is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spot {
+pub struct RobotCircle {
     /// The circle's centre.
     pub centre: Point2,
     /// The circle's radius, metres.
@@ -47,11 +47,11 @@ pub struct Spot {
 }
 
 /// A footprint, and the heading that it does not show, radians.
-pub type Drawn = (Footprint, Option<f64>);
+pub type DrawnFootprint = (Footprint, Option<f64>);
 
 /// The robots of a world of many.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Crowd {
+pub struct CrowdView {
     /// The id of the first; the others follow.
     pub first: u32,
     /// Their names.
@@ -66,7 +66,7 @@ pub struct Crowd {
     pub between: f64,
 }
 
-impl Crowd {
+impl CrowdView {
     /// The robot's place in the lists, for an id of this crowd.
     pub fn place(&self, id: u32) -> Option<usize> {
         let place = id.checked_sub(self.first)? as usize;
@@ -84,11 +84,11 @@ impl Crowd {
     }
 
     /// Where the robot at a place is on its way from the tick before.
-    pub fn spot(&self, place: usize) -> Option<Spot> {
+    pub fn spot(&self, place: usize) -> Option<RobotCircle> {
         let mut spot = self.spot_of(place, self.now.get(place)?)?;
         if let Some(before) = self.moving(place).and_then(|before| self.spot_of(place, before)) {
             let back = before.centre - spot.centre;
-            if back.norm_squared() <= LEAP * LEAP {
+            if back.norm_squared() <= MAX_DRIVEN * MAX_DRIVEN {
                 spot.centre += back * (1.0 - self.between);
             }
         }
@@ -105,7 +105,7 @@ impl Crowd {
 
     /// What is drawn of the robot at a place: its footprint on the way from the tick before, or where it now is if it
     /// did not move there.
-    pub fn drawn(&self, place: usize) -> Option<Drawn> {
+    pub fn drawn(&self, place: usize) -> Option<DrawnFootprint> {
         let now = &self.now.get(place)?.stance;
         let before = self.moving(place).map(|before| &before.stance);
         match (now, before) {
@@ -117,14 +117,14 @@ impl Crowd {
             }
             (Stance::Over(now, heading), Some(Stance::Over(before, from))) => {
                 let heading = heading.map(|to| from.map_or(to, |from| angle_between(from, to, self.between)));
-                Some((blend(before, now, self.between, LEAP), heading))
+                Some((blend(before, now, self.between, MAX_DRIVEN), heading))
             }
             _ => self.footprint(place),
         }
     }
 
     /// The robot's footprint now, by its place.
-    pub fn footprint(&self, place: usize) -> Option<Drawn> {
+    pub fn footprint(&self, place: usize) -> Option<DrawnFootprint> {
         match &self.now.get(place)?.stance {
             Stance::In(q) => self.members.footprint(place, &self.members.configuration(place, q)?),
             Stance::Over(footprint, heading) => Some((Footprint::clone(footprint), *heading)),
@@ -152,16 +152,20 @@ impl Crowd {
         self.before.get(place).filter(|_| self.between < 1.0)
     }
 
-    fn spot_of(&self, place: usize, robot: &CrowdRobot) -> Option<Spot> {
+    fn spot_of(&self, place: usize, robot: &CrowdRobot) -> Option<RobotCircle> {
         match &robot.stance {
             Stance::In(q) => {
                 let circle = self.members.circle(place)?;
-                Some(Spot { centre: circle.centre(q)?, radius: circle.radius, size: circle.size })
+                Some(RobotCircle { centre: circle.centre(q)?, radius: circle.radius, size: circle.size })
             }
             Stance::Over(footprint, _) => {
                 let bounds = footprint.bounds()?;
                 let extent = bounds.max - bounds.min;
-                Some(Spot { centre: bounds.centre(), radius: 0.5 * extent.norm(), size: greater(extent.x, extent.y) })
+                Some(RobotCircle {
+                    centre: bounds.centre(),
+                    radius: 0.5 * extent.norm(),
+                    size: greater(extent.x, extent.y),
+                })
             }
         }
     }
@@ -175,6 +179,6 @@ impl Crowd {
             [x, y, ..] => Vector2::new(*x, *y).norm(),
             _ => 0.0,
         };
-        moved(&steps) <= LEAP
+        moved(&steps) <= MAX_DRIVEN
     }
 }

@@ -1,4 +1,4 @@
-//! `Cells`, the cells of a slice judged so far, with the last picture of them.
+//! `SpaceCells`, the cells of a slice judged so far, with the last picture of them.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ const POINT: f64 = 8.0;
 
 /// The cells judged so far, and the last picture of them.
 #[derive(Clone, Debug)]
-pub struct Cells {
+pub struct SpaceCells {
     map: CellMap,
     picture: Arc<Picture>,
     /// Number of cells judged when the picture was drawn.
@@ -23,12 +23,12 @@ pub struct Cells {
     regions: Option<Vec<Region>>,
 }
 
-impl Cells {
+impl SpaceCells {
     /// The slice through `q`, of which nothing is known; `None` if `q` is not a configuration of the checker's robot.
     pub fn through(checker: &Checker<AnyRobot>, q: &AnyConfiguration, finest: u32) -> Option<Self> {
         let map = CellMap::new(Slice::through(checker, q).ok()?, finest);
         let picture = Arc::new(cspace_picture(&map, &Overlay::default()));
-        Some(Cells { map, picture, drawn: 0, regions: None })
+        Some(SpaceCells { map, picture, drawn: 0, regions: None })
     }
 
     /// The cells.
@@ -95,7 +95,7 @@ mod tests {
     fn the_name_of_a_region_gives_way_to_the_point() {
         let arm = AnyRobot::Reach(Reach::workbench());
         let checker = Checker::new(Scene::workbench(), arm);
-        let mut cells = Cells::through(&checker, &AnyConfiguration::T2(Tn([0.3, 0.2])), 5).unwrap();
+        let mut cells = SpaceCells::through(&checker, &AnyConfiguration::T2(Tn([0.3, 0.2])), 5).unwrap();
         while cells.refine(10_000) {}
         cells.name();
         let square = Aabb::new(Point2::new(-3.2, -3.2), Point2::new(3.2, 3.2));

@@ -13,7 +13,7 @@ use super::trail::trail;
 use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::style::ScreenTheme;
 use crate::window::ui::paint::touch::pinched;
-use crate::window::ui::{Cockpit, CockpitRobot, Command, Look};
+use crate::window::ui::{Cockpit, CockpitRobot, Command, FrameColours};
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{Overlay, overlay_items};
 use motion_lab_core::geometry::{Footprint, Point2};
@@ -34,7 +34,7 @@ const DIAL: f32 = 24.0;
 const WIDE: f32 = 280.0;
 
 /// Diameter of the area that takes the pointer on the point, points.
-const HIT: f32 = 28.0;
+const POINT_TARGET: f32 = 28.0;
 
 /// One of the lab's robots in a cockpit at a tick.
 pub struct Linked<'a> {
@@ -85,7 +85,7 @@ impl<'a> Linked<'a> {
         &self,
         ui: &mut Ui,
         room: Rect,
-        look: &Look,
+        look: &FrameColours,
         state: &mut LinkedState,
         commands: &mut Vec<Command>,
     ) -> Option<()> {
@@ -133,7 +133,7 @@ impl<'a> Linked<'a> {
         ui: &mut Ui,
         [place, room]: [Rect; 2],
         q: AnyConfiguration,
-        look: &Look,
+        look: &FrameColours,
         state: &mut LinkedState,
         commands: &mut Vec<Command>,
     ) -> Option<(Rect, Option<Footprint>)> {
@@ -154,7 +154,7 @@ impl<'a> Linked<'a> {
         };
         let over = Picture::new("configuration", still.bounds).with(overlay_items(slice, &overlay));
         let painter = ui.painter_at(paper);
-        canvas::paint_kept(&painter, still, paper, &fit, look);
+        canvas::paint_cached(&painter, still, paper, &fit, look);
         canvas::paint(&painter, &over, &fit, look);
         let at = Point2::from(slice.point(&q));
         if self.robot.is_arm {
@@ -176,7 +176,7 @@ impl<'a> Linked<'a> {
         commands: &mut Vec<Command>,
     ) -> Option<Footprint> {
         let [x, y] = fit.screen_from_world(at);
-        let hit = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat(HIT));
+        let hit = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat(POINT_TARGET));
         let response = ui.interact(hit, Id::new((&self.robot.name, "configuration")), Sense::DRAG);
         let words = format!("{}: its configuration as a point, to be dragged", self.robot.name);
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
@@ -216,7 +216,7 @@ impl<'a> Linked<'a> {
         &self,
         ui: &mut Ui,
         [place, room]: [Rect; 2],
-        look: &Look,
+        look: &FrameColours,
         linked: &LinkedState,
         commands: &mut Vec<Command>,
     ) -> (Rect, Option<Footprint>) {
@@ -224,7 +224,7 @@ impl<'a> Linked<'a> {
         let paper = canvas::proportioned(world, place);
         let fit = canvas::fit(world, paper);
         let painter = ui.painter_at(paper);
-        canvas::paint_kept(&painter, world, paper, &fit, look);
+        canvas::paint_cached(&painter, world, paper, &fit, look);
         let mut items = self.way();
         if let [x, y, ..] = to_come(self.robot)[..] {
             let role = if self.is_red { Role::Goal } else { Role::Robot };
@@ -246,7 +246,7 @@ impl<'a> Linked<'a> {
         &self,
         ui: &mut Ui,
         [paper, room]: [Rect; 2],
-        look: &Look,
+        look: &FrameColours,
         linked: &LinkedState,
         commands: &mut Vec<Command>,
     ) -> Option<Footprint> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::cells::Cells;
+use super::cells::SpaceCells;
 use motion_lab_core::collision::{Checker, Scene};
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::geometry::Footprint;
@@ -15,7 +15,7 @@ const FINEST: u32 = 6;
 /// What is kept from frame to frame of the worlds in front and of the cells behind a point.
 #[derive(Clone, Debug, Default)]
 pub struct LinkedState {
-    kept: Option<(Arc<Atlas>, Cells)>,
+    kept: Option<(Arc<Atlas>, SpaceCells)>,
     /// The scenes of the worlds seen, as long as somebody else has these worlds too.
     scenes: Vec<(Arc<Atlas>, Arc<Scene>)>,
     /// The robot that a drag of its point or its heading would put where it can't be, and its footprint there.
@@ -44,15 +44,15 @@ impl LinkedState {
 
     /// The cells of the slice through `q`: those that are kept, or for another world, robot or slice new ones. `None`
     /// if `q` is not a configuration of the robot.
-    pub fn cells_of(&mut self, world: &Arc<Atlas>, robot: &AnyRobot, q: &AnyConfiguration) -> Option<&mut Cells> {
-        let serves = |(of, cells): &(Arc<Atlas>, Cells)| {
+    pub fn cells_of(&mut self, world: &Arc<Atlas>, robot: &AnyRobot, q: &AnyConfiguration) -> Option<&mut SpaceCells> {
+        let serves = |(of, cells): &(Arc<Atlas>, SpaceCells)| {
             let slice = cells.map().slice();
             Arc::ptr_eq(of, world) && slice.checker().robot() == robot && slice.holds(q)
         };
         if !self.kept.as_ref().is_some_and(serves) {
             self.see(world);
             let checker = self.checker_of(world, robot);
-            self.kept = Some((Arc::clone(world), Cells::through(&checker, q, FINEST)?));
+            self.kept = Some((Arc::clone(world), SpaceCells::through(&checker, q, FINEST)?));
         }
         self.kept.as_mut().map(|(_, cells)| cells)
     }

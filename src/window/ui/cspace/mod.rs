@@ -9,7 +9,7 @@ mod torus;
 mod trail;
 pub(crate) mod view;
 
-pub use cells::Cells;
+pub use cells::SpaceCells;
 pub use linked_state::LinkedState;
 pub use state::CspaceState;
 pub use trail::TRAIL;

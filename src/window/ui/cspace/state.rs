@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::cells::Cells;
+use super::cells::SpaceCells;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{CellMap, Slice};
 use motion_lab_core::robots::ConfigurationError;
@@ -21,7 +21,7 @@ const TURNED: [f64; 2] = [-0.9, 0.85];
 /// The state of the configuration space.
 #[derive(Clone, Debug)]
 pub struct CspaceState {
-    pub(super) cells: Option<Cells>,
+    pub(super) cells: Option<SpaceCells>,
     /// The configurations visited, oldest first.
     pub trace: Vec<AnyConfiguration>,
     /// Whether a square whose edges are one is shown as a torus.
@@ -37,7 +37,7 @@ impl Default for CspaceState {
 }
 
 /// Whether the cells are those of this robot, in this scene, with the same coordinates held.
-fn are_of(cells: &Cells, anatomy: &Anatomy) -> bool {
+fn are_of(cells: &SpaceCells, anatomy: &Anatomy) -> bool {
     let (ours, its) = (cells.map().slice(), anatomy.checker());
     let same_scene = Arc::ptr_eq(&ours.checker().shared_scene(), &its.shared_scene());
     same_scene && ours.checker().robot() == its.robot() && ours.holds(&anatomy.q())
@@ -58,7 +58,7 @@ impl CspaceState {
     /// Judges more cells, from the start for another robot or scene. Returns whether any remain.
     pub(super) fn refine(&mut self, anatomy: &Anatomy) -> bool {
         if !self.cells.as_ref().is_some_and(|cells| are_of(cells, anatomy)) {
-            let Some(cells) = Cells::through(anatomy.checker(), &anatomy.q(), FINEST) else { return false };
+            let Some(cells) = SpaceCells::through(anatomy.checker(), &anatomy.q(), FINEST) else { return false };
             self.cells = Some(cells);
             self.trace.clear();
         }

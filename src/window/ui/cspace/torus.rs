@@ -5,7 +5,7 @@ use bevy_egui::egui::{
     WidgetType, vec2,
 };
 
-use crate::window::ui::{Look, UiState};
+use crate::window::ui::{FrameColours, UiState};
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{CellMap, CellState};
 use motion_lab_core::num::sin_cos;
@@ -52,7 +52,7 @@ fn seen([th1, th2]: [f64; 2], [about, tilt]: [f64; 2]) -> Seen {
 }
 
 /// Shows the torus with the cells, the trace, the arms with this tip and the robot's point. A drag turns it.
-pub fn torus(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+pub fn torus(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
     let Some(cells) = &state.cspace.cells else { return };
     let anatomy = &state.anatomy.anatomy;
     let response = ui.allocate_rect(paper, Sense::drag());
@@ -94,7 +94,7 @@ pub fn torus(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
 
 /// The side of the surface that faces the eye, what is farther below what is nearer. The more it faces the eye, the
 /// stronger its colour.
-fn surface(map: &CellMap, turned: [f64; 2], look: &Look, on_paper: &dyn Fn([f64; 2]) -> Pos2) -> Shape {
+fn surface(map: &CellMap, turned: [f64; 2], look: &FrameColours, on_paper: &dyn Fn([f64; 2]) -> Pos2) -> Shape {
     let angle = |k: f64| std::f64::consts::PI * (2.0 * k / SIDE as f64 - 1.0);
     let corners: Vec<Seen> = (0..=SIDE)
         .flat_map(|row| (0..=SIDE).map(move |column| [column, row]))
@@ -123,7 +123,7 @@ fn surface(map: &CellMap, turned: [f64; 2], look: &Look, on_paper: &dyn Fn([f64;
 }
 
 /// The colour of a face; what is blocked is hatched, as on the square.
-fn ink(facing: f64, state: CellState, is_hatch: bool, look: &Look) -> Color32 {
+fn ink(facing: f64, state: CellState, is_hatch: bool, look: &FrameColours) -> Color32 {
     let lit = facing.clamp(0.0, 1.0) as f32;
     let (role, share) = match state {
         CellState::Free => (Role::Free, 0.2 + 0.4 * lit),
@@ -135,7 +135,7 @@ fn ink(facing: f64, state: CellState, is_hatch: bool, look: &Look) -> Color32 {
 }
 
 /// Writes the name of a region on a plate.
-fn name(painter: &Painter, name: &str, at: Pos2, font: FontId, look: &Look) {
+fn name(painter: &Painter, name: &str, at: Pos2, font: FontId, look: &FrameColours) {
     let galley = painter.layout_no_wrap(name.to_owned(), font, look.colour(Role::Text));
     let rect = Align2::CENTER_CENTER.anchor_size(at, galley.size());
     painter.rect_filled(rect.expand2(vec2(3.0, 1.0)), 0.0, look.tint(Role::Paper, 0.85));
@@ -178,7 +178,7 @@ mod tests {
             });
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
-        for look in [Theme::Light, Theme::Dark].map(Look::from) {
+        for look in [Theme::Light, Theme::Dark].map(FrameColours::from) {
             for facing in [0.0, 0.25, 0.5, 0.75, 1.0] {
                 let [line, ground] =
                     [true, false].map(|is| luminance(ink(facing, CellState::Blocked, is, &look)) + 0.05);
@@ -222,7 +222,7 @@ mod tests {
         let slice = Slice::through(&Checker::new(Scene::workbench(), arm), &q).unwrap();
         let mut map = CellMap::new(slice.clone(), 8);
         map.refine(u32::MAX);
-        let look = Look::from(Theme::Light);
+        let look = FrameColours::from(Theme::Light);
         let Shape::Mesh(mesh) = surface(&map, [0.0, FRAC_PI_2], &look, &|[x, y]| pos2(x as f32, y as f32)) else {
             panic!("a mesh")
         };

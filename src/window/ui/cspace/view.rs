@@ -10,14 +10,14 @@ use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::{formulas, headline, next_hint, rows_of_words};
 use crate::window::ui::paint::sheet::{sheet, two_columns};
-use crate::window::ui::{Command, Dashboard, Look, UiState, readout, readout_lines};
+use crate::window::ui::{Command, Dashboard, FrameColours, UiState, readout, readout_lines};
 use motion_lab_core::cspace::{Overlay, overlay_items};
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::num::wrap;
 use motion_lab_core::picture::{Picture, Role, footprint};
 use motion_lab_core::robots::{AnyRobot, Robot};
-use motion_lab_sim::anatomy::{Series, Tab, twin};
-use motion_lab_sim::manifest::{Deed, Widget};
+use motion_lab_sim::anatomy::{PromptSeries, Tab, twin};
+use motion_lab_sim::manifest::{HintTask, Widget};
 
 /// Largest number of points kept in the trace.
 const TRACE: usize = 2000;
@@ -29,7 +29,13 @@ const POINT: f64 = 6.0;
 const UNDER_TWO: f32 = 224.0;
 
 /// Shows the widget.
-pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn cspace_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let narrow = look.narrow;
     let words = Widget::Cspace.text();
     if !look.low {
@@ -71,7 +77,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
                 readouts(ui, look, state);
                 next_hint(ui, words, look, state);
                 choices(ui, state);
-                fold(ui, "Guess first", false, |ui| prompts(ui, Series::Tips, state));
+                fold(ui, "Guess first", false, |ui| prompts(ui, PromptSeries::Tips, state));
                 crate::window::ui::menu::foot(ui, words, look, state);
             });
         } else {
@@ -82,7 +88,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
                     readouts(ui, look, state);
                 } else {
                     ui.set_max_width(width);
-                    prompts(ui, Series::Tips, state);
+                    prompts(ui, PromptSeries::Tips, state);
                 }
             });
             choices(ui, state);
@@ -91,7 +97,7 @@ pub fn cspace_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiSt
 }
 
 /// Shows the configuration, and how much of the space is known.
-fn readouts(ui: &mut Ui, look: &Look, state: &mut UiState) {
+fn readouts(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
     ui.horizontal_wrapped(|ui| {
         let anatomy = &state.anatomy.anatomy;
         let role = if anatomy.intersects() { Role::Goal } else { Role::Text };
@@ -147,7 +153,7 @@ fn choices(ui: &mut Ui, state: &mut UiState) {
 }
 
 /// Shows the workspace, where the robot can be dragged.
-fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+fn workspace(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
     let still = Arc::clone(state.anatomy.backdrop());
     let mut overlay = state.anatomy.anatomy.overlay();
     let anatomy = &state.anatomy.anatomy;
@@ -164,7 +170,7 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
 }
 
 /// Shows the configuration space, where the robot's point can be dragged.
-fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
+fn space(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
     let Some(cells) = &state.cspace.cells else { return };
     let anatomy = &state.anatomy.anatomy;
     let (slice, still) = (cells.map().slice().clone(), Arc::clone(cells.picture()));
@@ -201,9 +207,9 @@ fn space(ui: &mut Ui, paper: Rect, look: &Look, state: &mut UiState) {
         // a point of the slice is a configuration of the robot
         if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
             remember(state);
-            state.did.push(Deed::MovePoint);
+            state.did.push(HintTask::MovePoint);
             if slice.wraps() && p != [to.x, to.y] {
-                state.did.push(Deed::OverEdge);
+                state.did.push(HintTask::OverEdge);
             }
         }
     }

@@ -49,7 +49,7 @@ pub fn letters(cockpit: &Cockpit) -> Vec<Item> {
 }
 
 /// Marks the doors that open or close with the next tick, across their gaps.
-pub fn coming(cockpit: &Cockpit) -> Vec<Item> {
+pub fn pending_doors(cockpit: &Cockpit) -> Vec<Item> {
     let doors = cockpit.atlas.world().doors.iter().filter(|door| to_come(cockpit, door).is_some());
     let mark = |door: &Door| {
         let gap = Drawing::segment(door.a, door.b);

@@ -29,12 +29,12 @@ pub struct ParkingGoal {
     /// Whether the car is put back to the start by the tick that comes next, which does not count.
     pub is_put: bool,
     /// What it took, once the goal has been reached.
-    pub score: Option<Score>,
+    pub score: Option<GoalScore>,
 }
 
 /// What it took to reach the goal.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Score {
+pub struct GoalScore {
     /// Simulated time, seconds.
     pub seconds: f64,
     /// Changes of direction.
@@ -93,7 +93,7 @@ impl ParkingGoal {
             (self.score, self.reversals) = (None, car.reversals);
         } else if self.score.is_none() && trailer_of(&car.footprint).is_some_and(|at| self.off(at).is_reached()) {
             let travelled: Vec<f64> = history.span(car.id, from..=tick).map(|trail| trail.travelled).collect();
-            self.score = Some(Score {
+            self.score = Some(GoalScore {
                 seconds: (tick - from) as f64 * DT,
                 reversals: car.reversals.saturating_sub(self.reversals),
                 metres: travelled.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum(),
@@ -135,7 +135,7 @@ impl ParkingGoal {
 
     /// The state of the exercise in words. `reversals` is the car's count now.
     pub fn words(&self, car: &Footprint, reversals: u32) -> String {
-        if let Some(Score { seconds, reversals, metres }) = self.score {
+        if let Some(GoalScore { seconds, reversals, metres }) = self.score {
             let times = if reversals == 1 { "reversal" } else { "reversals" };
             return format!(
                 "Reached: one metre to the left in {seconds:.1} s, {reversals} {times}, {metres:.1} m driven."
@@ -184,7 +184,8 @@ mod tests {
         assert!(reached(&towing(5.0, 6.0, 0.049)) && !reached(&towing(5.0, 6.0, 0.051)));
         let alone = HITCH.footprint(&HitchCfg { body: Pose2::new(5.0, 6.0, 0.0), trailer: None });
         assert_eq!(goal.words(&alone, 5), "goal: put the trailer back on");
-        let scored = ParkingGoal { score: Some(Score { seconds: 12.34, reversals: 1, metres: 9.87 }), ..goal.clone() };
+        let scored =
+            ParkingGoal { score: Some(GoalScore { seconds: 12.34, reversals: 1, metres: 9.87 }), ..goal.clone() };
         let words = "Reached: one metre to the left in 12.3 s, 1 reversal, 9.9 m driven.";
         assert_eq!((scored.words(&alone, 5).as_str(), scored.again().score), (words, None));
         let items = goal.items(&start);

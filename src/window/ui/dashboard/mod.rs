@@ -4,6 +4,7 @@ pub(crate) mod blend;
 pub(crate) mod doors;
 pub(crate) mod goal;
 pub(crate) mod hand;
+pub(crate) mod in_hand;
 pub(crate) mod pane;
 pub(crate) mod plots;
 pub(crate) mod stage;

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    CursorIcon, Id, Label, Pos2, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo,
+    CursorIcon, Id, Label, Rect, Response, RichText, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo,
     WidgetType, pos2, vec2,
 };
 
 use super::doors;
 use super::hand::bodies::{self, robot_at};
-use super::hand::{drive, handles, pad};
+use super::hand::{drive, handles};
+use super::in_hand::{Free, chosen, in_hand, joints_to_drag, take_in_hand};
 use super::twins::twin_items;
 use super::words::words_in;
 use crate::window::ui::cspace::put_at::is_placeable;
@@ -18,9 +19,8 @@ use crate::window::ui::paint::magnifier::{BUTTONS, magnified, magnifier};
 use crate::window::ui::paint::style::ScreenTheme;
 use crate::window::ui::paint::touch::touched;
 use crate::window::ui::paint::{canvas, frame};
-use crate::window::ui::{Cockpit, CockpitRobot, Command, Grasp, Look, Notice, UiState};
-use motion_lab_core::collision::{Collision, Scene, footprint_distance};
-use motion_lab_core::geometry::{Footprint, Part, Pose2, Shape, Vector2};
+use crate::window::ui::{Cockpit, Command, FrameColours, UiState};
+use motion_lab_core::geometry::Vector2;
 use motion_lab_core::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
 use motion_lab_sim::anatomy::touching_items;
 use motion_lab_sim::atlas::{self, Atlas};
@@ -45,7 +45,14 @@ pub fn text_height(ui: &Ui, robots: usize) -> f32 {
 }
 
 /// Shows one cockpit: its paper, and name, space, readout and counts under it.
-pub fn pane(ui: &mut Ui, cockpit: &Cockpit, rect: Rect, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn pane(
+    ui: &mut Ui,
+    cockpit: &Cockpit,
+    rect: Rect,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let text = if look.narrow { NARROW_TEXT } else { text_height(ui, cockpit.robots.len()) };
     let height = (rect.height() - text).max(60.0);
     let sheet = canvas::proportioned(&cockpit.world, Rect::from_min_size(rect.min, vec2(rect.width(), height)));
@@ -61,7 +68,7 @@ pub fn paper(
     cockpit: &Cockpit,
     paper: Rect,
     under: Vec<Item>,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) -> Fit {
@@ -78,12 +85,12 @@ pub fn paper(
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, cockpit.described()));
     // a wall on the border of a world that is shown whole is a point wider than the paper
     let painter = ui.painter_at(if camera.zoom > 1.0 { paper } else { paper.expand(1.0) });
-    canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
+    canvas::paint_cached(&painter, &cockpit.world, paper, &fit, look);
     if let Some(plan) = state.plan.over_world(&cockpit.world.name) {
-        canvas::paint_kept(&painter, plan, paper, &fit, look);
+        canvas::paint_cached(&painter, plan, paper, &fit, look);
     }
     // under the letters of the doors
-    let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds).with(doors::coming(cockpit));
+    let mut over = Picture::new(&cockpit.world.name, cockpit.world.bounds).with(doors::pending_doors(cockpit));
     over = if state.settings.labels {
         over.with(names(ui, cockpit, &fit))
     } else {
@@ -111,7 +118,7 @@ pub fn paper(
         let taken = if camera.zoom > 1.0 { BUTTONS } else { 0.0 };
         in_hand(ui, robot, paper, Free { taken, of: Some((cockpit, &fit)) }, look, state);
     }
-    coming(ui, cockpit, paper, look);
+    pending_input(ui, cockpit, paper, look);
     for robot in cockpit.robots.iter().filter(|r| r.is_arm) {
         handles::handles(ui, robot, paper, &fit, look, state, commands);
     }
@@ -156,7 +163,7 @@ pub fn paper(
 }
 
 /// Says on the paper that an input comes with the next tick: there it moves nothing when it comes.
-pub fn coming(ui: &mut Ui, cockpit: &Cockpit, paper: Rect, look: &Look) {
+pub fn pending_input(ui: &mut Ui, cockpit: &Cockpit, paper: Rect, look: &FrameColours) {
     if cockpit.waiting {
         let row = ui.text_style_height(&TextStyle::Small);
         let at = Rect::from_min_size(paper.left_bottom() + vec2(12.0, -row - 10.0), vec2(160.0, row));
@@ -253,13 +260,13 @@ pub fn door_clicked(
 fn names(ui: &Ui, cockpit: &Cockpit, fit: &Fit) -> Vec<Item> {
     let scale = fit.px_per_metre();
     let id = Id::new(("names", &cockpit.world.name));
-    let kept: Option<KeptNames> = ui.data(|d| d.get_temp(id));
-    let is_same = |k: &KeptNames| Arc::ptr_eq(&k.atlas, &cockpit.atlas) && k.scale.to_bits() == scale.to_bits();
+    let kept: Option<CachedNames> = ui.data(|d| d.get_temp(id));
+    let is_same = |k: &CachedNames| Arc::ptr_eq(&k.atlas, &cockpit.atlas) && k.scale.to_bits() == scale.to_bits();
     let kept = kept.filter(is_same).unwrap_or_else(|| {
         let dots = places(&cockpit.atlas.world().places).into_iter();
         let dots = dots.filter(|i| !matches!(i.drawing, Drawing::Label { .. }));
         let items = dots.chain(atlas::names(&cockpit.atlas, scale)).collect();
-        let made = KeptNames { atlas: Arc::clone(&cockpit.atlas), scale, items };
+        let made = CachedNames { atlas: Arc::clone(&cockpit.atlas), scale, items };
         ui.data_mut(|d| d.insert_temp(id, made.clone()));
         made
     });
@@ -268,119 +275,10 @@ fn names(ui: &Ui, cockpit: &Cockpit, fit: &Fit) -> Vec<Item> {
 
 /// The names of a world at a scale, kept from frame to frame.
 #[derive(Clone)]
-struct KeptNames {
+struct CachedNames {
     atlas: Arc<Atlas>,
     scale: f64,
     items: Vec<Item>,
-}
-
-/// The robot of a pane that can be taken in hand: the first that is driven by channels, else the first arm.
-pub fn in_reach(cockpit: &Cockpit) -> Option<&CockpitRobot> {
-    let robots = || cockpit.robots.iter();
-    robots().find(|r| r.drivable).or_else(|| robots().find(|r| r.is_arm))
-}
-
-/// The robot of a pane that is in hand, or was last; else the one that can be taken.
-pub fn chosen<'a>(cockpit: &'a Cockpit, state: &UiState) -> Option<&'a CockpitRobot> {
-    let named = |name: &Option<String>| cockpit.robots.iter().find(|robot| name.as_ref() == Some(&robot.name));
-    [&state.armed, &state.nudged, &state.last_held].into_iter().find_map(named).or_else(|| in_reach(cockpit))
-}
-
-/// Takes a robot of a pane in hand, of an arm its first handle; lets go of it if it was in hand already. Says so where
-/// there is none.
-pub fn take_in_hand(cockpit: &Cockpit, robot: Option<&CockpitRobot>, state: &mut UiState, commands: &mut Vec<Command>) {
-    let again = robot.is_some_and(|r| [&state.armed, &state.nudged].contains(&&Some(r.name.clone())));
-    drive::let_go(state, commands);
-    state.next_grasp = Some(Grasp::Leave);
-    match robot {
-        Some(_) if again => {}
-        Some(robot) if robot.is_arm || robot.drivable => {
-            state.last_held = Some(robot.name.clone());
-            if robot.is_arm {
-                state.next_grasp = Some(Grasp::Take(robot.name.clone()));
-            } else {
-                state.armed = Some(robot.name.clone());
-            }
-        }
-        _ => {
-            let text = format!("no robot of {} can be driven", cockpit.world.name);
-            state.say(Notice { text, is_error: false });
-        }
-    }
-}
-
-/// What of an arm is dragged: `drag its elbow or tip`.
-fn joints_to_drag(arm: &CockpitRobot) -> &'static str {
-    if arm.coordinates.len() == 2 { "drag its elbow or tip" } else { "drag its joints or tip" }
-}
-
-/// What of a paper is free for words.
-pub struct Free<'a> {
-    /// Width that something else takes at the right, points.
-    pub taken: f32,
-    /// The cockpit and how its world lies on the paper, if words are to keep off its obstacles.
-    pub of: Option<(&'a Cockpit, &'a Fit)>,
-}
-
-/// Shows on the paper of the robot in hand how to drive it, and for a finger the pad.
-pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look: &Look, state: &mut UiState) {
-    let Free { taken, of } = free;
-    let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
-    let touched = touched(ui);
-    let words = if robot.is_arm {
-        let finely = if touched { "" } else { "; arrows turn the joint, with Shift finely, Esc lets go" };
-        format!("{}{finely}", joints_to_drag(robot))
-    } else if sideways {
-        "steering alone moves nothing: no input moves a car sideways".to_owned()
-    } else if touched {
-        "the pad drives, a tap beside it lets go".to_owned()
-    } else {
-        "arrows drive, Esc lets go".to_owned()
-    };
-    let font = TextStyle::Body.resolve(ui.style());
-    let galley = ui.painter().layout(words, font, look.colour(Role::Text), paper.width() - 24.0 - taken);
-    let size = galley.size() + vec2(8.0, 4.0);
-    // it stays as long as it is free
-    let id = Id::new((&robot.name, "hint"));
-    let before = ui.data(|data| data.get_temp(id));
-    let rect = of.and_then(|(cockpit, fit)| {
-        free_place(&state.linked.scene_of(&cockpit.atlas), &cockpit.robots, fit, (paper, before), size)
-    });
-    rect.map(|rect| ui.data_mut(|data| data.insert_temp(id, rect.min)));
-    let rect = rect.unwrap_or(Rect::from_min_size(paper.min + vec2(4.0, 6.0), size));
-    // opaque and square: rounded corners of a tint leave dots
-    ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
-    ui.painter().galley(rect.min + vec2(4.0, 2.0), galley, look.colour(Role::Text));
-    if touched && robot.drivable {
-        let place = state.pad_place.take().unwrap_or(pad::corner(paper));
-        pad::pad(ui, &robot.name, place, look, state);
-    }
-}
-
-/// The place of this size that begins at `before`, else the first along the upper edge of a paper, then along its lower
-/// edge, where no obstacle and no robot is, nor the name of what one touches.
-fn free_place(
-    scene: &Scene,
-    robots: &[CockpitRobot],
-    fit: &Fit,
-    (paper, before): (Rect, Option<Pos2>),
-    size: Vec2,
-) -> Option<Rect> {
-    const STEP: f32 = 12.0;
-    const NAME: f64 = 40.0;
-    let away = NAME / fit.px_per_metre();
-    let room = paper.shrink(STEP);
-    let world = |at: Pos2| fit.world_from_screen([f64::from(at.x), f64::from(at.y)]);
-    let columns = ((room.width() - size.x) / STEP).max(0.0) as u16;
-    let rows = [room.top(), room.bottom() - size.y];
-    let places = rows.into_iter().flat_map(|y| (0..=columns).map(move |k| pos2(room.left() + STEP * f32::from(k), y)));
-    let before = before.filter(|at| room.contains_rect(Rect::from_min_size(*at, size)));
-    before.into_iter().chain(places).map(|at| Rect::from_min_size(at, size)).find(|place| {
-        let shape = Shape::Rectangle { min: world(place.left_bottom()), max: world(place.right_top()) };
-        let place = Footprint::new([Part::new(Pose2::IDENTITY, shape)]);
-        let is_off = |robot: &CockpitRobot| footprint_distance(&place, &robot.footprint) > away;
-        robots.iter().all(is_off) && !scene.intersects(&place)
-    })
 }
 
 /// Names the obstacle that is pointed at. Returns whether there is one.

@@ -3,7 +3,7 @@
 use bevy_egui::egui::{FontId, Rangef, RichText, ScrollArea, TextStyle, TextWrapMode, Ui};
 use egui_plot::{AxisHints, GridMark, Line, LineStyle, Plot, PlotPoints, VLine};
 
-use crate::window::ui::{Command, Dashboard, Look, UiState};
+use crate::window::ui::{Command, Dashboard, FrameColours, UiState};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::picture::Role;
 use motion_lab_sim::run::DT;
@@ -13,7 +13,7 @@ use motion_lab_sim::simulation::{History, Trail, TransportCommand};
 const POINTS: usize = 400;
 
 /// Least height of a plot with its axis, points: three numbers fit beside it.
-const LEAST_HEIGHT: f32 = 96.0;
+const MIN_HEIGHT: f32 = 96.0;
 
 /// Height of a plot's title, points.
 const ROW: f32 = 20.0;
@@ -31,18 +31,18 @@ struct Channel {
 
 /// The value of a line.
 #[derive(Clone, Copy)]
-enum Value {
+enum PlotValue {
     /// As a channel says.
     Of(fn(&Trail) -> Option<f64>),
     /// A coordinate of the configuration.
     Coordinate(usize),
 }
 
-impl Value {
+impl PlotValue {
     fn of(self, trail: &Trail) -> Option<f64> {
         match self {
-            Value::Of(value) => value(trail),
-            Value::Coordinate(i) => trail.coordinates.get(i).copied(),
+            PlotValue::Of(value) => value(trail),
+            PlotValue::Coordinate(i) => trail.coordinates.get(i).copied(),
         }
     }
 }
@@ -83,7 +83,7 @@ fn unbroken(points: &[[f64; 2]], wraps: bool) -> impl Iterator<Item = &[[f64; 2]
 }
 
 /// The colour and the dash of a line. Lines differ in both.
-fn line_of(number: usize, look: &Look) -> (bevy_egui::egui::Color32, LineStyle) {
+fn line_of(number: usize, look: &FrameColours) -> (bevy_egui::egui::Color32, LineStyle) {
     match number % 4 {
         0 => (look.colour(Role::Robot), LineStyle::Solid),
         1 => (look.colour(Role::Witness), LineStyle::Dashed { length: 6.0 }),
@@ -98,7 +98,7 @@ pub fn plots(
     ui: &mut Ui,
     model: &Dashboard,
     history: &History,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -108,7 +108,7 @@ pub fn plots(
     let room = ui.max_rect().bottom() - ui.cursor().top() - titles;
     // the names of its lines take up to two rows
     let names = 2.0 * ui.text_style_height(&TextStyle::Small) + 12.0;
-    let height = (room / shown.max(1) as f32 - names).clamp(LEAST_HEIGHT, 260.0);
+    let height = (room / shown.max(1) as f32 - names).clamp(MIN_HEIGHT, 260.0);
     // where not all fit, none is cut
     ScrollArea::vertical().id_salt("plots").auto_shrink(false).show(ui, |ui| {
         for (i, graph) in GRAPHS.iter().enumerate() {
@@ -128,26 +128,26 @@ pub fn plots(
 }
 
 /// The lines of a plot: the id of the robot, its name with the channel's or the coordinate's, and the value.
-fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, Value)> {
+fn lines<'a>(graph: &'a Graph, model: &'a Dashboard) -> impl Iterator<Item = (u32, String, PlotValue)> {
     let robots = || model.cockpits.iter().flat_map(|c| &c.robots).map(|r| (r.id, r));
     let channels = graph.channels.iter().flat_map(move |channel| {
         // a kind without a description has the lines of every robot
         let of = robots().filter(move |(_, r)| r.about.map_or(channel.name.is_empty(), channel.shows));
-        of.map(|(id, r)| (id, format!("{} {}", r.name, channel.name).trim().to_owned(), Value::Of(channel.value)))
+        of.map(|(id, r)| (id, format!("{} {}", r.name, channel.name).trim().to_owned(), PlotValue::Of(channel.value)))
     });
     let described = move || robots().filter_map(|(id, r)| Some((id, r, r.about.filter(|k| (graph.angles)(k))?)));
     let most = described().map(|(_, _, kind)| kind.coordinates.len()).max().unwrap_or(0);
     let angles = (0..most).flat_map(move |i| {
         let of = described().filter(move |(_, _, kind)| i >= kind.lengths);
         of.filter_map(move |(id, r, kind)| {
-            Some((id, format!("{} {}", r.name, kind.coordinates.get(i)?), Value::Coordinate(i)))
+            Some((id, format!("{} {}", r.name, kind.coordinates.get(i)?), PlotValue::Coordinate(i)))
         })
     });
     channels.chain(angles)
 }
 
 /// Shows the names of a plot's lines, each with its colour and dash.
-fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &Look) {
+fn legend(ui: &mut Ui, graph: &Graph, model: &Dashboard, look: &FrameColours) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Small);
         ui.spacing_mut().item_spacing.x = 6.0;
@@ -197,7 +197,7 @@ fn plot(
     height: f32,
     model: &Dashboard,
     history: &History,
-    look: &Look,
+    look: &FrameColours,
     commands: &mut Vec<Command>,
 ) {
     let end = DT * model.frontier.max(1) as f64;

@@ -4,7 +4,7 @@ use crate::window::ui::Command;
 use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::robots::AnyRobot;
-use motion_lab_sim::anatomy::Sweep;
+use motion_lab_sim::anatomy::SweptMotion;
 use motion_lab_sim::run::{Quantized, RobotInput};
 use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
 
@@ -14,16 +14,16 @@ pub struct AskedTwin {
     /// The robot's name.
     pub robot: String,
     /// The straight motion of an arm to its other elbow; `None` for a car, whose ghost is shown.
-    pub way: Option<Way>,
+    pub way: Option<ElbowFlip>,
 }
 
 /// An arm's straight motion to its other elbow.
 #[derive(Clone, Debug)]
-pub struct Way {
+pub struct ElbowFlip {
     /// What the arm may touch.
     pub checker: Checker<AnyRobot>,
     /// The motion with its verdict.
-    pub sweep: Sweep,
+    pub sweep: SweptMotion,
     /// The ticks done of it.
     pub done: u32,
     /// The ticks that it takes; 0 of a way that is not free.
@@ -43,7 +43,7 @@ impl AskedTwin {
     }
 }
 
-impl Way {
+impl ElbowFlip {
     /// Where the arm was sent last.
     pub fn at(&self) -> AnyConfiguration {
         self.sweep.at(if self.ticks == 0 { 0.0 } else { f64::from(self.done) / f64::from(self.ticks) })

@@ -3,16 +3,16 @@
 
 use bevy_egui::egui::{Label, RichText, Ui};
 
-use super::twin_state::{AskedTwin, Way};
+use super::twin_state::{AskedTwin, ElbowFlip};
 use crate::window::ui::paint::button::LabButton;
-use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, LinkedState, Look, UiState};
+use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, FrameColours, LinkedState, UiState};
 use motion_lab_core::collision::EdgeVerdict;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::num::{greater, wrap};
 use motion_lab_core::picture::{Item, Role, footprint};
 use motion_lab_core::robots::{AnyRobot, Robot};
-use motion_lab_sim::anatomy::{Sweep, contact_items, in_the_way, straight_way, twin};
-use motion_lab_sim::manifest::Deed;
+use motion_lab_sim::anatomy::{SweptMotion, contact_items, in_the_way, straight_way, twin};
+use motion_lab_sim::manifest::HintTask;
 use motion_lab_sim::run::DT;
 use motion_lab_sim::simulation::TransportCommand;
 
@@ -64,7 +64,7 @@ pub fn twin_items(cockpit: &Cockpit, state: &UiState) -> Vec<Item> {
 }
 
 /// Offers a robot's twin by a button, and says in place what came of it. Offers none to other robots.
-pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &FrameColours, state: &mut UiState) {
     let Some((fitted, q)) = modelled(robot) else { return };
     let other = twin(&fitted, &q);
     let asked = state.twin.as_ref().filter(|asked| asked.robot == robot.name);
@@ -100,7 +100,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &Look, 
         let is_off = is_asked && !robot.is_arm;
         state.twin = (!is_off).then(|| AskedTwin { robot: robot.name.clone(), way: None });
         if !robot.is_arm {
-            state.did.push(Deed::TwoHeadings);
+            state.did.push(HintTask::TwoHeadings);
         }
     }
 }
@@ -114,7 +114,7 @@ pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>
         if robot.is_arm {
             let begun = begin(cockpit, robot, model, &state.linked, commands);
             if begun.as_ref().is_some_and(|way| way.ticks == 0) {
-                state.did.push(Deed::TwoElbows);
+                state.did.push(HintTask::TwoElbows);
             }
             state.twin = begun.map(|way| AskedTwin { robot: robot.name.clone(), way: Some(way) });
         }
@@ -137,7 +137,7 @@ pub fn go_on(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>
         } else if way.steps {
             commands.push(Command::from(TransportCommand::Play));
         }
-        state.did.push(Deed::TwoElbows);
+        state.did.push(HintTask::TwoElbows);
         state.twin = None;
     }
 }
@@ -150,16 +150,16 @@ fn begin(
     model: &Dashboard,
     linked: &LinkedState,
     commands: &mut Vec<Command>,
-) -> Option<Way> {
+) -> Option<ElbowFlip> {
     let (fitted, q) = modelled(robot)?;
     let checker = linked.checker_of(&cockpit.atlas, &fitted);
-    let sweep = Sweep::new(&checker, &q, &twin(&fitted, &q)?).ok()?;
+    let sweep = SweptMotion::new(&checker, &q, &twin(&fitted, &q)?).ok()?;
     let turns = q.coordinates().into_iter().zip(sweep.to.coordinates());
     let most = turns.map(|(from, to)| wrap(to - from).abs()).fold(0.0, |most, turn| greater(turn, most));
     let is_free = matches!(sweep.verdict, EdgeVerdict::Free { .. });
     let ticks = if is_free { (most / (RATE * DT)).ceil() as u32 } else { 0 };
     let steps = is_free && model.speed.is_infinite();
-    let mut way = Way { checker, sweep, done: ticks.min(1), ticks, due: 0, pauses: !model.playing, steps };
+    let mut way = ElbowFlip { checker, sweep, done: ticks.min(1), ticks, due: 0, pauses: !model.playing, steps };
     // a refusal leaves the run as it is; only at its end, while it plays, is the arm told to stay
     if !is_free && (!model.playing || model.tick < model.frontier) {
         return Some(way);

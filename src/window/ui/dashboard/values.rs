@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::window::ui::Crowd;
+use crate::window::ui::CrowdView;
 use motion_lab_core::configuration::{Coordinates, RobotKind};
 use motion_lab_core::geometry::{Footprint, Point2};
 use motion_lab_core::picture::{Gait, Item, Picture, RobotDrawing, robot};
@@ -76,7 +76,7 @@ pub struct Cockpit {
     /// Its robots; in a world with a crowd, the one that is picked.
     pub robots: Vec<CockpitRobot>,
     /// All its robots, where they are many.
-    pub crowd: Option<Crowd>,
+    pub crowd: Option<CrowdView>,
     /// The doors that open, `true`, or close with the next tick of a paused run.
     pub doors: Vec<(String, bool)>,
     /// Whether the run is paused with a change of the world or an input to a robot that comes with the next tick.

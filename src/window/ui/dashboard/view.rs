@@ -3,14 +3,14 @@
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Rect, Ui};
 
 use super::hand::drive;
-use super::pane::{chosen, take_in_hand};
+use super::in_hand::{chosen, take_in_hand};
 use super::plots::plots;
 use super::stage::{self, GAP, Stage};
 use crate::window::ui::keys::{CameraAction, HandAction};
 use crate::window::ui::paint::camera::{Camera, STEP};
 use crate::window::ui::paint::frame;
 use crate::window::ui::time::transport_bar::transport_bar;
-use crate::window::ui::{Command, Dashboard, Look, Notice, UiState, menu};
+use crate::window::ui::{Command, Dashboard, FrameColours, Notice, UiState, menu};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::History;
 
@@ -26,7 +26,7 @@ pub fn dashboard(
     ui: &mut Ui,
     model: &Dashboard,
     history: &History,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) -> Rect {
@@ -108,7 +108,7 @@ pub fn take(action: HandAction, model: &Dashboard, state: &mut UiState, commands
 }
 
 /// Shows the head, on a wide screen the rest of it: title and buttons stand above the plots too.
-fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn header(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     let words = Widget::Dashboard.text();
     if look.narrow {
         return stage::header(ui, model, look, state, commands);

@@ -10,7 +10,7 @@ use super::{doors, twins};
 use crate::window::ui::paint::frame;
 use crate::window::ui::paint::scale_bar::scale_bar;
 use crate::window::ui::{
-    Cockpit, CockpitRobot, Command, Look, Notice, ParkingGoal, SessionCommand, UiState, readout, readout_lines,
+    Cockpit, CockpitRobot, Command, FrameColours, Notice, ParkingGoal, SessionCommand, UiState, readout, readout_lines,
 };
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::picture::{Fit, Role};
@@ -31,7 +31,7 @@ pub fn words_in(
     rect: Rect,
     cockpit: &Cockpit,
     fit: &Fit,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -47,7 +47,7 @@ pub fn words_apart(
     [rect, foot]: [Rect; 2],
     cockpit: &Cockpit,
     fit: &Fit,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -100,7 +100,7 @@ fn scrolled(ui: &mut Ui, cockpit: &Cockpit, add: impl FnOnce(&mut Ui)) {
 }
 
 /// Shows who is seen, and at the right end the scale.
-fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &Look) {
+fn heading(ui: &mut Ui, cockpit: &Cockpit, fit: &Fit, look: &FrameColours) {
     let name = match &cockpit.robots[..] {
         [robot] => by_whom(robot, cockpit.heading()),
         _ => cockpit.heading(),
@@ -126,13 +126,13 @@ pub fn by_whom(robot: &CockpitRobot, heading: String) -> String {
     }
 }
 
-fn formulas(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState) {
+fn formulas(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours, state: &mut UiState) {
     if let Some(about) = robot.about {
         frame::formulas(ui, &format!("{}.{}", about.name, robot.coordinates.len()), look, state);
     }
 }
 
-fn words(ui: &mut Ui, cockpit: &Cockpit, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn words(ui: &mut Ui, cockpit: &Cockpit, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     if let [robot] = &cockpit.robots[..] {
         twins::offer(ui, cockpit, robot, look, state);
         // where the words scroll, what can be done comes first
@@ -166,13 +166,19 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, look: &Look, state: &mut UiState, comma
 }
 
 /// Shows a robot's space, its configuration, what was counted of it, and links for what can be done with it.
-pub fn robot_words(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn robot_words(
+    ui: &mut Ui,
+    robot: &CockpitRobot,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     values(ui, robot, look, state, commands);
     links(ui, robot, None, look, state, commands);
 }
 
 /// Shows a robot's space, its configuration, and what was counted of it.
-fn values(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+fn values(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     // the exercise under way comes first
     if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
         ui.add(Label::new(RichText::new(goal.words(&robot.footprint, robot.reversals)).strong()).wrap());
@@ -197,7 +203,7 @@ fn values(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, c
 }
 
 /// Shows the configuration as its type prints it. A click copies every digit.
-fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
+fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours) {
     let figure = TextStyle::Monospace.resolve(ui.style());
     let width = ui.ctx().fonts_mut(|f| f.glyph_width(&figure, '0'));
     for line in readout_lines(&readout(&robot.readout), (ui.available_width() / width) as usize) {
@@ -210,7 +216,7 @@ fn readouts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
     }
 }
 
-fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
+fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours) {
     let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
     // in a row of its own, so that no row wraps when the other grows
     if let Some(tip) = robot.tip {
@@ -232,7 +238,7 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &Look) {
 
 /// Shows a link. Where there is a reason why it can't be used now it is grey, and the reason is said on hover and by a
 /// click. Returns whether it was clicked and can be used.
-fn link(ui: &mut Ui, words: &str, why_not: Option<String>, look: &Look, state: &mut UiState) -> bool {
+fn link(ui: &mut Ui, words: &str, why_not: Option<String>, look: &FrameColours, state: &mut UiState) -> bool {
     let Some(text) = why_not else { return ui.link(words).clicked() };
     let grey = Link::new(RichText::new(words).color(look.colour(Role::Muted)));
     if ui.add(grey).on_hover_text(&text).clicked() {
@@ -247,7 +253,7 @@ fn links(
     ui: &mut Ui,
     robot: &CockpitRobot,
     alone_in: Option<&Cockpit>,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {

@@ -118,7 +118,7 @@ pub enum CameraAction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AtlasAction {
     /// Move the atlas's robot, its measured point or what is selected in it.
-    Move(Way),
+    Move(Direction),
     /// Turn the atlas's robot, or what is selected in it.
     TurnThing {
         /// Whether counter-clockwise.
@@ -181,7 +181,7 @@ pub enum Push {
 
 /// A way on the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum Direction {
     /// Towards lesser x.
     Left,
     /// Towards greater x.
@@ -192,14 +192,14 @@ pub enum Way {
     Down,
 }
 
-impl Way {
+impl Direction {
     /// One step along x and y.
     pub fn steps(self) -> [f64; 2] {
         match self {
-            Way::Left => [-1.0, 0.0],
-            Way::Right => [1.0, 0.0],
-            Way::Up => [0.0, 1.0],
-            Way::Down => [0.0, -1.0],
+            Direction::Left => [-1.0, 0.0],
+            Direction::Right => [1.0, 0.0],
+            Direction::Up => [0.0, 1.0],
+            Direction::Down => [0.0, -1.0],
         }
     }
 }

@@ -6,7 +6,9 @@ use motion_lab_sim::manifest::Widget;
 
 mod action;
 
-pub use action::{Action, AtlasAction, CameraAction, HandAction, HeldAction, Push, SessionAction, TimeAction, Way};
+pub use action::{
+    Action, AtlasAction, CameraAction, Direction, HandAction, HeldAction, Push, SessionAction, TimeAction,
+};
 
 /// The states in which a key is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,14 +111,14 @@ pub const BINDINGS: [Binding; 57] = [
     plain(Action::Held(HeldAction::Turn { left: false }), Key::ArrowDown, Scope::Handle, "turn the joint right"),
     plain(Action::Held(HeldAction::LeaveHandle), Key::Escape, Scope::Handle, "leave the handle"),
     plain(
-        Action::Atlas(AtlasAction::Move(Way::Left)),
+        Action::Atlas(AtlasAction::Move(Direction::Left)),
         Key::ArrowLeft,
         Scope::Atlas,
         "the robot, or what is selected, 5 cm to the left",
     ),
-    plain(Action::Atlas(AtlasAction::Move(Way::Right)), Key::ArrowRight, Scope::Atlas, "5 cm to the right"),
-    plain(Action::Atlas(AtlasAction::Move(Way::Up)), Key::ArrowUp, Scope::Atlas, "5 cm up"),
-    plain(Action::Atlas(AtlasAction::Move(Way::Down)), Key::ArrowDown, Scope::Atlas, "5 cm down"),
+    plain(Action::Atlas(AtlasAction::Move(Direction::Right)), Key::ArrowRight, Scope::Atlas, "5 cm to the right"),
+    plain(Action::Atlas(AtlasAction::Move(Direction::Up)), Key::ArrowUp, Scope::Atlas, "5 cm up"),
+    plain(Action::Atlas(AtlasAction::Move(Direction::Down)), Key::ArrowDown, Scope::Atlas, "5 cm down"),
     shifted(Action::Atlas(AtlasAction::TurnThing { left: true }), Key::ArrowLeft, "turn it left by 15\u{b0}"),
     shifted(Action::Atlas(AtlasAction::TurnThing { left: false }), Key::ArrowRight, "turn it right by 15\u{b0}"),
     plain(Action::Atlas(AtlasAction::Delete), Key::Delete, Scope::Atlas, "remove what is selected"),

@@ -3,7 +3,7 @@
 use bevy_egui::egui::{Align2, Button, Response, RichText, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, vec2};
 
 use super::icon::Icon;
-use crate::window::ui::Look;
+use crate::window::ui::FrameColours;
 use motion_lab_core::picture::Role;
 
 /// Width of a button with a sign for a mouse, points.
@@ -64,7 +64,7 @@ impl<'a> LabButton<'a> {
     }
 
     /// Shows the button.
-    pub fn show(self, ui: &mut Ui, look: &Look) -> Response {
+    pub fn show(self, ui: &mut Ui, look: &FrameColours) -> Response {
         let height = ui.spacing().interact_size.y;
         let least = if self.has_words { 0.0 } else { sign_width(ui) };
         let width = if self.icon.is_some() { self.width.max(least) } else { self.width };

@@ -41,7 +41,7 @@ impl Camera {
     /// Magnifies by `factor` so that the point `at` of the world stays where it is on the screen. The scale stays in
     /// its range, and the whole world is centred.
     pub fn zoom_at(&mut self, at: Point2, factor: f64, whole: &Fit, bounds: &Aabb) {
-        let zoom = greater(1.0, lesser(most(whole), self.zoom * factor));
+        let zoom = greater(1.0, lesser(largest_magnification(whole), self.zoom * factor));
         let centre = self.middle(bounds);
         if zoom <= 1.0 {
             *self = Camera::default();
@@ -59,7 +59,7 @@ impl Camera {
 
     /// Keeps the scale in its range, for paper on which the world lies whole as `whole` says.
     pub fn settle(&mut self, whole: &Fit) {
-        self.zoom = lesser(self.zoom, most(whole));
+        self.zoom = lesser(self.zoom, largest_magnification(whole));
     }
 
     /// The point of the world in the middle of the paper.
@@ -79,7 +79,7 @@ impl Camera {
 }
 
 /// The largest magnification of a world that lies whole as `whole` says.
-fn most(whole: &Fit) -> f64 {
+fn largest_magnification(whole: &Fit) -> f64 {
     greater(1.0, LARGEST / whole.px_per_metre())
 }
 

@@ -6,7 +6,7 @@ use bevy_egui::egui::{
 
 use super::button::LabButton;
 use super::camera::{Camera, STEP};
-use crate::window::ui::Look;
+use crate::window::ui::FrameColours;
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::num::exp;
 use motion_lab_core::picture::Fit;
@@ -57,7 +57,7 @@ pub fn magnifier(
     camera: &mut Camera,
     whole: &Fit,
     bounds: &Aabb,
-    look: &Look,
+    look: &FrameColours,
 ) {
     let side = ui.spacing().interact_size.y;
     let corner =

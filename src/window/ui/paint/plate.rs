@@ -4,13 +4,13 @@ use bevy_egui::egui::{
     Align2, Area, Context, Frame, Id, Label, Margin, Order, Pos2, RichText, Sense, Stroke, Ui, vec2,
 };
 
-use crate::window::ui::Look;
+use crate::window::ui::FrameColours;
 use crate::window::ui::paint::style::ScreenTheme;
 use motion_lab_core::picture::Role;
 
 /// Where a plate lies.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct PlateAnchor {
     /// The point that it is anchored at.
     pub at: Pos2,
     /// The corner or edge of the plate that lies there.
@@ -24,9 +24,9 @@ pub struct Place {
 pub fn plate<R>(
     ctx: &Context,
     name: &str,
-    place: Place,
+    place: PlateAnchor,
     takes: bool,
-    look: &Look,
+    look: &FrameColours,
     add: impl FnOnce(&mut Ui) -> R,
 ) -> R {
     let (width, margin) = (place.width.max(40.0), Margin::symmetric(8, 4));
@@ -44,7 +44,7 @@ pub fn plate<R>(
 
 /// Shows why something was refused, in whole: a ring with a stroke, and the words in the text's colour. Red is kept for
 /// contact.
-pub fn refusal(ui: &mut Ui, words: &str, look: &Look) {
+pub fn refusal(ui: &mut Ui, words: &str, look: &FrameColours) {
     ui.horizontal_top(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         mark(ui, look);
@@ -54,7 +54,7 @@ pub fn refusal(ui: &mut Ui, words: &str, look: &Look) {
 }
 
 /// The mark of a refusal.
-fn mark(ui: &mut Ui, look: &Look) {
+fn mark(ui: &mut Ui, look: &FrameColours) {
     let (rect, _) = ui.allocate_exact_size(vec2(14.0, 16.0), Sense::hover());
     let stroke = Stroke::new(1.5, look.theme.colour(Role::Text));
     let (at, painter) = (rect.center(), ui.painter());

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{Align2, Color32, Painter, Pos2, Rect, RichText, Sense, Stroke, TextStyle, Ui, Vec2, pos2, vec2};
 
-use crate::window::ui::Look;
+use crate::window::ui::FrameColours;
 use motion_lab_core::picture::{Role, ScaleBar};
 
 /// Greatest length of a bar, points.
@@ -12,7 +12,7 @@ const LONGEST: f64 = 80.0;
 const HIGH: f32 = 7.0;
 
 /// Shows a bar of a round number of metres with its length.
-pub fn scale_bar(ui: &mut Ui, px_per_metre: f64, look: &Look) {
+pub fn scale_bar(ui: &mut Ui, px_per_metre: f64, look: &FrameColours) {
     let bar = ScaleBar::new(px_per_metre, LONGEST);
     let (rect, _) = ui.allocate_exact_size(Vec2::new(bar.length_px as f32, HIGH), Sense::hover());
     paint(ui.painter(), rect, look);
@@ -20,7 +20,7 @@ pub fn scale_bar(ui: &mut Ui, px_per_metre: f64, look: &Look) {
 }
 
 /// Paints such a bar with its length on a picture, from its lower left end at `corner` on, on a plate of paper.
-pub fn bar_at(ui: &Ui, painter: &Painter, corner: Pos2, px_per_metre: f64, look: &Look) {
+pub fn bar_at(ui: &Ui, painter: &Painter, corner: Pos2, px_per_metre: f64, look: &FrameColours) {
     let bar = ScaleBar::new(px_per_metre, LONGEST);
     let rect = Rect::from_min_size(pos2(corner.x, corner.y - HIGH), vec2(bar.length_px as f32, HIGH));
     let galley = painter.layout_no_wrap(bar.label, TextStyle::Small.resolve(ui.style()), look.colour(Role::Muted));
@@ -30,7 +30,7 @@ pub fn bar_at(ui: &Ui, painter: &Painter, corner: Pos2, px_per_metre: f64, look:
     painter.galley(words.min, galley, Color32::PLACEHOLDER);
 }
 
-fn paint(painter: &Painter, rect: Rect, look: &Look) {
+fn paint(painter: &Painter, rect: Rect, look: &FrameColours) {
     let stroke = Stroke::new(1.0, look.colour(Role::Muted));
     let rect = rect.translate(vec2(-0.5, 0.0));
     painter.hline(rect.x_range(), rect.center().y, stroke);
@@ -48,7 +48,7 @@ mod tests {
     #[test]
     fn a_bar_on_a_picture_stands_on_paper() {
         let mut output = Context::default().run_ui(RawInput::default(), |ui| {
-            bar_at(ui, ui.painter(), pos2(50.0, 80.0), 40.0, &Look::from(Theme::Light));
+            bar_at(ui, ui.painter(), pos2(50.0, 80.0), 40.0, &FrameColours::from(Theme::Light));
         });
         output.textures_delta.clear();
         let shapes: Vec<Shape> = output.shapes.into_iter().map(|clipped| clipped.shape).collect();

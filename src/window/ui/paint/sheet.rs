@@ -7,12 +7,12 @@ use bevy_egui::egui::{
 
 use super::canvas;
 use super::scale_bar::bar_at;
-use crate::window::ui::Look;
+use crate::window::ui::FrameColours;
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::picture::{Fit, Picture, Role, pick};
 
 /// A sheet as shown in this frame.
-pub struct Sheet {
+pub struct ScreenSheet {
     /// The pointer's actions on the paper.
     pub response: Response,
     /// The rectangle of the paper.
@@ -21,7 +21,7 @@ pub struct Sheet {
     pub fit: Fit,
 }
 
-impl Sheet {
+impl ScreenSheet {
     /// The point of the picture's plane where the pointer is held down; `None` where it is not, or is off the paper.
     pub fn held(&self) -> Option<Point2> {
         let pos = self.response.interact_pointer_pos()?;
@@ -36,7 +36,7 @@ impl Sheet {
     }
 }
 
-impl Sheet {
+impl ScreenSheet {
     /// The role of the part of a picture that the pointer is on; `None` where it is on none, or off the paper.
     pub fn pointed_at(&self, picture: &Picture) -> Option<Role> {
         let at = self.response.hover_pos()?;
@@ -53,13 +53,13 @@ const UNDER: f32 = 22.0;
 const LEFT: f32 = 140.0;
 
 /// Width of the panel beside a paper in a low room, at least, points.
-const LEAST_BESIDE: f32 = 200.0;
+const MIN_BESIDE: f32 = 200.0;
 
 /// Splits the room into a widget's paper, on which `still` is shown, and the panel beside it, `width` points wide. On a
 /// narrow screen and in a room that is taller than wide the panel is under the paper.
-pub fn split(still: &Picture, room: Rect, look: &Look, width: f32) -> (Rect, Rect) {
+pub fn split(still: &Picture, room: Rect, look: &FrameColours, width: f32) -> (Rect, Rect) {
     if look.low {
-        let paper = canvas::proportioned(still, room.with_max_x(room.right() - LEAST_BESIDE - 12.0));
+        let paper = canvas::proportioned(still, room.with_max_x(room.right() - MIN_BESIDE - 12.0));
         return (paper, room.with_min_x(paper.right() + 12.0));
     }
     if look.narrow {
@@ -122,20 +122,20 @@ pub fn sheet(
     spoken: String,
     still: &std::sync::Arc<Picture>,
     moving: &Picture,
-    look: &Look,
-) -> Sheet {
+    look: &FrameColours,
+) -> ScreenSheet {
     let response = ui.allocate_rect(paper, Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &spoken));
     let fit = canvas::fit(still, paper);
     let painter = ui.painter_at(paper.expand(1.0));
-    canvas::paint_kept(&painter, still, paper, &fit, look);
+    canvas::paint_cached(&painter, still, paper, &fit, look);
     canvas::paint(&ui.painter_at(paper), moving, &fit, look);
     if still.in_metres {
         bar_at(ui, &painter, bar_corner(still, paper, &fit), fit.px_per_metre(), look);
     }
     let role = if response.has_focus() { Role::Focus } else { Role::Hairline };
     painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
-    Sheet { response, paper, fit }
+    ScreenSheet { response, paper, fit }
 }
 
 #[cfg(test)]
@@ -152,7 +152,7 @@ mod tests {
     fn the_plate_of_the_scale_lies_on_no_wall_at_the_edge() {
         let bounds = Aabb::new(Point2::new(-1.0, -2.0), Point2::new(11.0, 6.0));
         let still = Arc::new(Picture::new("Yard", bounds));
-        let look = Look::from(Theme::Light);
+        let look = FrameColours::from(Theme::Light);
         // as high as the picture, a little higher, much higher, a little wider, and much wider
         for size in [[616.0, 416.0], [616.0, 430.0], [616.0, 600.0], [750.0, 416.0], [900.0, 416.0]] {
             let paper = Rect::from_min_size(pos2(20.0, 30.0), size.into());

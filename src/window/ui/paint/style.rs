@@ -25,7 +25,7 @@ fn stored(light: f64) -> u8 {
 }
 
 /// Least contrast with the paper of what has faded: that of graphics, and a little for rounding.
-const LEAST_CONTRAST: f64 = 3.05;
+const MIN_CONTRAST: f64 = 3.05;
 
 /// Least opacity of what has faded.
 const FADED: f64 = 0.3;
@@ -120,7 +120,7 @@ fn fades_to(theme: Theme, role: Role) -> f64 {
     let stands_out = |opacity: &f64| {
         let [r, g, b, _] = washed(theme, role, *opacity).to_array();
         let (ink, paper) = (luminance([r, g, b]) + 0.05, luminance(paper) + 0.05);
-        greater(ink, paper) >= LEAST_CONTRAST * lesser(ink, paper)
+        greater(ink, paper) >= MIN_CONTRAST * lesser(ink, paper)
     };
     let steps = (0..=64).map(|i| FADED + (1.0 - FADED) * f64::from(i) / 64.0);
     steps.into_iter().find(stands_out).unwrap_or(1.0)

@@ -2,13 +2,13 @@
 
 use bevy_egui::egui::{ComboBox, Ui, WidgetInfo, WidgetType};
 
-use super::state::{PACES, PlanState, Stage};
-use crate::window::ui::Look;
+use super::state::{PACES, PlanStage, PlanState};
+use crate::window::ui::FrameColours;
 use crate::window::ui::keys::TimeAction;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::icon::Icon;
 use motion_lab_core::random::Seed;
-use motion_lab_sim::manifest::Deed;
+use motion_lab_sim::manifest::HintTask;
 
 /// Width of the button that plays, points.
 const PLAY_WIDTH: f32 = 56.0;
@@ -20,7 +20,7 @@ pub fn act(action: TimeAction, plan: &mut PlanState) {
         TimeAction::PlayPause => play(plan),
         TimeAction::Step => {
             plan.playing = false;
-            plan.deeds.extend(goes_on(plan).then_some(Deed::StepPlanner));
+            plan.deeds.extend(goes_on(plan).then_some(HintTask::StepPlanner));
             plan.step();
         }
         TimeAction::Start | TimeAction::Reset => plan.restart(),
@@ -43,9 +43,9 @@ fn play(plan: &mut PlanState) {
 /// Whether another iteration does anything.
 fn goes_on(plan: &PlanState) -> bool {
     match plan.stage() {
-        Stage::Growing => true,
-        Stage::Solved => plan.improves(),
-        Stage::Ended(_) | Stage::Read(_) => false,
+        PlanStage::Growing => true,
+        PlanStage::Solved => plan.improves(),
+        PlanStage::Ended(_) | PlanStage::Read(_) => false,
     }
 }
 
@@ -53,7 +53,7 @@ fn goes_on(plan: &PlanState) -> bool {
 const PACE: f32 = 112.0;
 
 /// Shows the buttons and the choice of pace.
-pub fn controls(ui: &mut Ui, look: &Look, plan: &mut PlanState) {
+pub fn controls(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState) {
     let play =
         if plan.playing { LabButton::new("Pause").icon(Icon::Pause) } else { LabButton::new("Play").icon(Icon::Play) };
     let buttons = [

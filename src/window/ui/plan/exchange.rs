@@ -1,11 +1,11 @@
 //! What leaves a plan and comes into it: commands, figures, paths that are played, files.
 
-use super::state::{PlanState, Stage};
-use crate::window::ui::cspace::Cells;
+use super::state::{PlanStage, PlanState};
+use crate::window::ui::cspace::SpaceCells;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
-use motion_lab_sim::capture::{self, Captured, Found, PlanSheet};
+use motion_lab_sim::capture::{self, Captured, PlanOutcome, PlanSheet};
 use motion_lab_sim::plans::{PathFile, PathFileError, Task};
 use motion_lab_sim::simulation::{PlayError, PlayedPath};
 
@@ -13,7 +13,7 @@ impl PlanState {
     /// The command line that plans this; `None` in a world that no command knows by name, for a file's path, and for a
     /// sensor that lies: the command's is exact.
     pub fn command(&self) -> Option<String> {
-        if matches!(self.stage, Stage::Read(_)) || self.is_by_sensor() && self.sensor_lies() {
+        if matches!(self.stage, PlanStage::Read(_)) || self.is_by_sensor() && self.sensor_lies() {
             return None;
         }
         let (Task { name, start, goal, .. }, world) = (&self.task, self.known_as?);
@@ -25,14 +25,14 @@ impl PlanState {
 
     /// The planner's path, played in its world by its robot alone; `None` without a path of the planner's own.
     pub fn played(&self) -> Option<(World, Result<PlayedPath, PlayError>)> {
-        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
+        let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
         let (world, played) = work.with(|attempt| self.task.played(attempt, self.seed));
         Some((world, played?))
     }
 
     /// The path as a file, with what the planner has grown; `None` without a path of the planner's own.
     pub fn file(&self) -> Option<PathFile> {
-        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
+        let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
         Some(work.with(|attempt| PathFile::new(self.planner.id(), self.seed.0, &self.task, attempt, true)))
     }
 
@@ -55,7 +55,7 @@ impl PlanState {
         // a name that no robot has is the file's word only: what is copied as a command repeats the task's
         let robot_name = if resident.is_some() { robot_name } else { robot.title() }.to_owned();
         self.take(Task::new(robot_name, robot, world, [start, goal]));
-        (self.work, self.stage) = (None, Stage::Read(name.to_owned()));
+        (self.work, self.stage) = (None, PlanStage::Read(name.to_owned()));
         self.draw(drawn);
         Ok(())
     }
@@ -69,12 +69,12 @@ impl PlanState {
             drawn: &self.drawn,
             effort: self.effort,
             found: match (&self.stage, self.lengths()) {
-                (Stage::Read(file), _) => Found::File(file),
-                (_, Some(lengths)) => Found::Path(lengths),
-                (Stage::Ended(_), None) => Found::None,
-                _ => Found::Growing,
+                (PlanStage::Read(file), _) => PlanOutcome::File(file),
+                (_, Some(lengths)) => PlanOutcome::Path(lengths),
+                (PlanStage::Ended(_), None) => PlanOutcome::None,
+                _ => PlanOutcome::Growing,
             },
-            cells: self.cells.as_ref().map(Cells::map),
+            cells: self.cells.as_ref().map(SpaceCells::map),
         })
     }
 }

@@ -9,4 +9,4 @@ mod tests;
 pub(super) mod view;
 mod work;
 
-pub use state::{PlanState, Stage};
+pub use state::{PlanStage, PlanState};

@@ -2,14 +2,14 @@
 
 use bevy_egui::egui::{ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
 
-use super::state::{PlanState, Stage};
+use super::state::{PlanStage, PlanState};
 use crate::window::ui::anatomy::view::{chooser, exact};
-use crate::window::ui::number::Typed;
+use crate::window::ui::number::NumberInput;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::headline;
 use crate::window::ui::paint::plate::refusal;
-use crate::window::ui::{Command, Look, SessionCommand, UiState};
+use crate::window::ui::{Command, FrameColours, SessionCommand, UiState};
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg};
 use motion_lab_core::picture::{Role, in_signs};
@@ -23,7 +23,7 @@ use motion_lab_sim::plans::{PathLengths, PlannerName, TUBE, Task};
 const WIDTH: f32 = 180.0;
 
 /// Shows the panel: what is planned and by whom, and what came of it.
-pub fn panel(ui: &mut Ui, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn panel(ui: &mut Ui, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     choices(ui, state);
     ui.add_space(4.0);
     outcome(ui, look, &state.plan);
@@ -47,14 +47,14 @@ pub fn choices(ui: &mut Ui, state: &mut UiState) {
 }
 
 /// Shows what came of it.
-pub fn outcome(ui: &mut Ui, look: &Look, plan: &PlanState) {
+pub fn outcome(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
     result(ui, look, plan);
     leave_points(ui, plan);
 }
 
 /// Shows what can be done with the path.
-pub fn path_buttons(ui: &mut Ui, look: &Look, plan: &mut PlanState, commands: &mut Vec<Command>) {
-    let has_path = matches!(plan.stage(), Stage::Solved);
+pub fn path_buttons(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState, commands: &mut Vec<Command>) {
+    let has_path = matches!(plan.stage(), PlanStage::Solved);
     ui.horizontal_wrapped(|ui| {
         let play = LabButton::new("Play it").enabled(has_path).show(ui, look);
         if play.on_hover_text("A new run in which the robot drives the path").clicked() {
@@ -183,19 +183,19 @@ fn seed(ui: &mut Ui, plan: &mut PlanState) {
 }
 
 /// Shows what the planner has done, and its path or why there is none.
-fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
+fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
     let effort = plan.effort();
     let monospace = |text: String| RichText::new(text).monospace();
-    if !matches!(plan.stage(), Stage::Read(_)) {
+    if !matches!(plan.stage(), PlanStage::Read(_)) {
         ui.label(monospace(format!("{:>6} iterations  {:>6} samples", effort.iterations, effort.samples)));
         ui.label(monospace(format!("{:>6} edges asked {:>6} free", effort.edges, effort.free)));
     }
     match plan.stage() {
-        Stage::Growing if effort.iterations == 0 => {
+        PlanStage::Growing if effort.iterations == 0 => {
             _ = ui.label("Drag the start or the goal; play, or go step by step.")
         }
-        Stage::Growing => _ = ui.label("It grows."),
-        Stage::Solved => {
+        PlanStage::Growing => _ = ui.label("It grows."),
+        PlanStage::Solved => {
             if let Some(PathLengths { length, clearance }) = plan.lengths() {
                 let (legs, unit) = (plan.drawn().legs(), unit(&plan.task().robot));
                 headline(ui, &format!("path: {legs}, {length:.3} {unit}"), look.colour(Role::Text));
@@ -205,8 +205,8 @@ fn result(ui: &mut Ui, look: &Look, plan: &PlanState) {
                 ui.label("Play on, and it improves its path.");
             }
         }
-        Stage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
-        Stage::Read(name) => {
+        PlanStage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
+        PlanStage::Read(name) => {
             let drawn = plan.drawn();
             ui.label(format!("{name}: {}, {} edges", drawn.legs(), drawn.edges.len()));
             let words = "Drawn as the file says; nothing of it is proven here.";
@@ -241,7 +241,7 @@ fn coordinates(ui: &mut Ui, state: &mut UiState, end: usize) {
             0 => [bounds.min.x, bounds.max.x],
             _ => [bounds.min.y, bounds.max.y],
         };
-        let typed = Typed::new(ui, least..=most, q.is_angle(i));
+        let typed = NumberInput::new(ui, least..=most, q.is_angle(i));
         let response = ui.add(exact(Slider::new(&mut value, least..=most), 3, &typed).text(in_signs(&name)));
         let spoken = format!("{name} of the {}", ["start", "goal"][end.min(1)]);
         response.widget_info(|| WidgetInfo::slider(true, value, &spoken));

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use bevy::platform::time::Instant;
 
-use super::work::Work;
-use crate::window::ui::cspace::Cells;
+use super::work::PlannerWork;
+use crate::window::ui::cspace::SpaceCells;
 use motion_lab_core::collision::{Checker, Collision};
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::picture::{Item, Picture, Role, world as picture_of};
@@ -13,7 +13,7 @@ use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::manifest::Deed;
+use motion_lab_sim::manifest::HintTask;
 use motion_lab_sim::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
 use motion_lab_sim::run::Event;
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
@@ -40,7 +40,7 @@ const SHOWS_REJECTED: f64 = 3.0;
 
 /// How far the planner has come.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Stage {
+pub enum PlanStage {
     /// It has not begun, or has no path yet.
     Growing,
     /// It has a path.
@@ -57,8 +57,8 @@ pub struct PlanState {
     pub(super) task: Task,
     pub(super) planner: PlannerName,
     pub(super) seed: Seed,
-    pub(super) work: Option<Work>,
-    pub(super) stage: Stage,
+    pub(super) work: Option<PlannerWork>,
+    pub(super) stage: PlanStage,
     /// Whether it goes on by itself.
     pub playing: bool,
     /// The number of its pace among [`PACES`].
@@ -74,7 +74,7 @@ pub struct PlanState {
     backdrop: Arc<Picture>,
     /// The plan over the workspace.
     pub over: Arc<Picture>,
-    pub(super) cells: Option<Cells>,
+    pub(super) cells: Option<SpaceCells>,
     /// The plan over the cells, once it has been asked for.
     over_cells: Option<Arc<Picture>>,
     /// The end whose numbers are shown, and that is being dragged: 0 the start, 1 the goal.
@@ -86,7 +86,7 @@ pub struct PlanState {
     /// Whether the goal was moved since the planner was last at work.
     pub is_moved: bool,
     /// What the reader did that hints ask for, since it was last taken.
-    pub deeds: Vec<Deed>,
+    pub deeds: Vec<HintTask>,
 }
 
 impl Default for PlanState {
@@ -108,7 +108,7 @@ impl PlanState {
             planner: PlannerName::default_for(&task.robot),
             seed: BOOK_SEED,
             work: None,
-            stage: Stage::Growing,
+            stage: PlanStage::Growing,
             playing: false,
             pace: 3,
             bound: 0,
@@ -212,10 +212,10 @@ impl PlanState {
     pub fn described(&self) -> String {
         let Task { name, start, goal, .. } = &self.task;
         let found = match &self.stage {
-            Stage::Growing => format!("{} edges so far", self.drawn.edges.len()),
-            Stage::Solved => format!("a path of {}", self.drawn.legs()),
-            Stage::Ended(reason) => reason.to_string(),
-            Stage::Read(file) => return format!("the file {file} for {name}, from {start} to {goal}"),
+            PlanStage::Growing => format!("{} edges so far", self.drawn.edges.len()),
+            PlanStage::Solved => format!("a path of {}", self.drawn.legs()),
+            PlanStage::Ended(reason) => reason.to_string(),
+            PlanStage::Read(file) => return format!("the file {file} for {name}, from {start} to {goal}"),
         };
         let left = self.drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
         let left: String = left.map(|(i, point)| format!("; round {}: {point}", i + 1)).collect();
@@ -223,7 +223,7 @@ impl PlanState {
     }
 
     /// How far the planner has come.
-    pub fn stage(&self) -> &Stage {
+    pub fn stage(&self) -> &PlanStage {
         &self.stage
     }
 
@@ -239,7 +239,7 @@ impl PlanState {
 
     /// The length and the clearance of the planner's own path, if it has one.
     pub fn lengths(&self) -> Option<PathLengths> {
-        let work = self.work.as_ref().filter(|_| self.stage == Stage::Solved)?;
+        let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
         Some(work.with(|attempt| attempt.lengths()))
     }
 
@@ -254,8 +254,8 @@ impl PlanState {
         self.due = 0.0;
         self.bound = self.planner.iterations();
         (self.work, self.stage) = match self.task.attempt(self.planner, self.seed) {
-            Ok(attempt) => (Some(Work::new(attempt)), Stage::Growing),
-            Err(reason) => (None, Stage::Ended(reason)),
+            Ok(attempt) => (Some(PlannerWork::new(attempt)), PlanStage::Growing),
+            Err(reason) => (None, PlanStage::Ended(reason)),
         };
         self.look();
     }
@@ -273,20 +273,20 @@ impl PlanState {
     /// going on by itself.
     fn step_unseen(&mut self) {
         let Some(work) = &self.work else { return };
-        if matches!(self.stage, Stage::Ended(_)) {
+        if matches!(self.stage, PlanStage::Ended(_)) {
             return self.playing = false;
         }
-        self.deeds.extend(std::mem::take(&mut self.is_moved).then_some(Deed::MoveGoal));
+        self.deeds.extend(std::mem::take(&mut self.is_moved).then_some(HintTask::MoveGoal));
         let effort = work.with(|attempt| attempt.effort());
         let next = if effort.iterations >= self.bound {
             let exhausted = NoPath::Exhausted { bound: Bound::Iterations, effort };
-            if self.stage == Stage::Solved { Stage::Solved } else { Stage::Ended(exhausted) }
+            if self.stage == PlanStage::Solved { PlanStage::Solved } else { PlanStage::Ended(exhausted) }
         } else {
             match work.with(|attempt| attempt.step()) {
                 Progress::Growing => return,
-                Progress::Solved if self.stage == Stage::Solved && self.improves() => return,
-                Progress::Solved => Stage::Solved,
-                Progress::Ended(reason) => Stage::Ended(reason),
+                Progress::Solved if self.stage == PlanStage::Solved && self.improves() => return,
+                Progress::Solved => PlanStage::Solved,
+                Progress::Ended(reason) => PlanStage::Ended(reason),
             }
         };
         (self.stage, self.playing) = (next, false);
@@ -338,16 +338,16 @@ impl PlanState {
 
     /// The slice of the configuration space behind the plan, through the end in hand, a little better known with each
     /// call.
-    pub fn cells(&mut self, budget: u32) -> Option<(&Cells, bool)> {
+    pub fn cells(&mut self, budget: u32) -> Option<(&SpaceCells, bool)> {
         let through = self.end_at(self.end);
-        let slice_of = |cells: &Cells| {
+        let slice_of = |cells: &SpaceCells| {
             let checker = cells.map().slice().checker();
             Arc::ptr_eq(&checker.shared_scene(), &self.task.scene) && *checker.robot() == self.task.planned()
         };
-        let serves = |cells: &Cells| slice_of(cells) && cells.map().slice().holds(&through);
+        let serves = |cells: &SpaceCells| slice_of(cells) && cells.map().slice().holds(&through);
         if !self.cells.as_ref().is_some_and(serves) {
             let checker = Checker::new(Arc::clone(&self.task.scene), self.task.planned());
-            self.cells = Cells::through(&checker, &through, FINEST);
+            self.cells = SpaceCells::through(&checker, &through, FINEST);
             self.over_cells = None;
         }
         let cells = self.cells.as_mut()?;

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::PlanState;
-use super::state::{PACES, Stage};
+use super::state::{PACES, PlanStage};
 use motion_lab_core::collision::Collision;
 use motion_lab_core::configuration::{AnyConfiguration, T2};
 use motion_lab_core::cspace::CellState;
@@ -44,7 +44,7 @@ fn a_pace_is_so_many_iterations_a_second_whatever_the_frames() {
 fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
     let mut plan = PlanState::default();
     plan.set_planner(PlannerName::RrtStar);
-    while *plan.stage() == Stage::Growing {
+    while *plan.stage() == PlanStage::Growing {
         plan.step();
     }
     let (first, iterations) = (plan.lengths().unwrap().length, plan.effort().iterations);
@@ -54,10 +54,10 @@ fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
     assert_eq!(plan.effort().iterations, iterations + 300);
     assert!(better < first, "{better} {first}");
     plan.set_planner(PlannerName::RrtConnect);
-    while *plan.stage() == Stage::Growing {
+    while *plan.stage() == PlanStage::Growing {
         plan.step();
     }
-    assert!(!plan.improves() && *plan.stage() == Stage::Solved);
+    assert!(!plan.improves() && *plan.stage() == PlanStage::Solved);
 }
 
 #[test]
@@ -68,15 +68,15 @@ fn a_planner_ends_at_its_bound_with_the_path_that_it_has_or_with_the_reason() {
     plan.bound = 40;
     (0..60).for_each(|_| plan.step());
     assert_eq!(plan.effort().iterations, 40);
-    let Stage::Ended(reason) = plan.stage() else { panic!("{:?}", plan.stage()) };
+    let PlanStage::Ended(reason) = plan.stage() else { panic!("{:?}", plan.stage()) };
     assert!(reason.to_string().starts_with("no path within the bound on iterations: 40 iterations"), "{reason}");
     plan.set_planner(PlannerName::RrtStar);
-    while *plan.stage() == Stage::Growing {
+    while *plan.stage() == PlanStage::Growing {
         plan.step();
     }
     plan.bound = plan.effort().iterations + 5;
     (0..20).for_each(|_| plan.step());
-    assert!(*plan.stage() == Stage::Solved && plan.effort().iterations == plan.bound && !plan.improves());
+    assert!(*plan.stage() == PlanStage::Solved && plan.effort().iterations == plan.bound && !plan.improves());
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn a_rejected_motion_is_seen_at_a_slow_pace_and_never_flickers_at_a_fast_one() {
     let mut plan = PlanState::default();
     plan.set_planner(PlannerName::Rrt);
     let mut seen = 0;
-    while *plan.stage() == Stage::Growing {
+    while *plan.stage() == PlanStage::Growing {
         plan.step();
         seen += u32::from(plan.drawn().rejected.is_some());
     }
@@ -138,20 +138,20 @@ fn what_is_no_problem_is_said_and_mended_by_another_end() {
     let mut plan = PlanState::default();
     let in_the_block = AnyConfiguration::T2(T2::new(0.785, 0.785));
     plan.move_end(0, in_the_block);
-    assert!(matches!(plan.stage(), Stage::Ended(NoPath::Problem(_))), "{:?}", plan.stage());
+    assert!(matches!(plan.stage(), PlanStage::Ended(NoPath::Problem(_))), "{:?}", plan.stage());
     plan.step();
     assert_eq!(plan.effort().iterations, 0);
     plan.move_end(0, AnyConfiguration::T2(T2::new(2.0, 0.0)));
-    assert_eq!(*plan.stage(), Stage::Growing);
+    assert_eq!(*plan.stage(), PlanStage::Growing);
     // a robot in a world where it can't go anywhere but has room: every planner ends within its bound
     let world = cell();
     let (robot, start) = AnyRobot::of_resident(&world.robots[0]).unwrap();
     plan.take(Task::new("Rusty", robot, world, [start, start.with(0, 3.0)]));
     plan.set_planner(PlannerName::CellDecomposition);
-    while *plan.stage() == Stage::Growing {
+    while *plan.stage() == PlanStage::Growing {
         plan.step();
     }
-    assert!(matches!(plan.stage(), Stage::Ended(NoPath::Unreachable { .. })), "{:?}", plan.stage());
+    assert!(matches!(plan.stage(), PlanStage::Ended(NoPath::Unreachable { .. })), "{:?}", plan.stage());
     assert!(plan.command().is_none() && plan.file().is_none() && plan.played().is_none());
 }
 
@@ -203,7 +203,7 @@ fn a_switch_makes_the_sensor_lie_and_a_misjudged_leave_point_is_drawn_and_said()
     };
     let ids = |plan: &PlanState| plan.over.items.iter().map(|item| item.id.clone()).collect::<Vec<String>>();
     let (exact, points) = walked(false);
-    assert!(*exact.stage() == Stage::Solved && points.iter().all(|point| !point.is_misjudged()), "{points:?}");
+    assert!(*exact.stage() == PlanStage::Solved && points.iter().all(|point| !point.is_misjudged()), "{points:?}");
     assert!(exact.described().ends_with("round 1: left where the boundary comes nearest"), "{}", exact.described());
     assert!(!ids(&exact).iter().any(|id| id.starts_with("misjudged/")));
     assert!(exact.command().unwrap().contains("--planner bug1-sensor --robot Rusty --world apartment"));

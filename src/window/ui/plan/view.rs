@@ -10,8 +10,8 @@ use super::state::PlanState;
 use crate::window::ui::keys::SessionAction;
 use crate::window::ui::paint::canvas::{self, MARGIN};
 use crate::window::ui::paint::frame::next_hint;
-use crate::window::ui::paint::sheet::{Sheet, sheet, two_columns};
-use crate::window::ui::{Command, Dashboard, Look, Notice, SessionCommand, UiState, readout};
+use crate::window::ui::paint::sheet::{ScreenSheet, sheet, two_columns};
+use crate::window::ui::{Command, Dashboard, FrameColours, Notice, SessionCommand, UiState, readout};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::cspace::Slice;
 use motion_lab_core::geometry::Point2;
@@ -48,7 +48,13 @@ pub fn act(action: SessionAction, model: &Dashboard, state: &mut UiState, comman
 }
 
 /// Shows the widget.
-pub fn plan_view(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn plan_view(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let narrow = look.narrow;
     let words = Widget::Plan.text();
     if !look.low {
@@ -163,12 +169,12 @@ fn larger(room: Rect, aspects: [f32; 2]) -> [Rect; 2] {
 }
 
 /// Shows the workspace, where start and goal can be dragged.
-fn workspace(ui: &mut Ui, paper: Rect, look: &Look, plan: &mut PlanState) {
+fn workspace(ui: &mut Ui, paper: Rect, look: &FrameColours, plan: &mut PlanState) {
     let still = Arc::clone(plan.backdrop());
     let spoken = format!("workspace. {}", plan.described());
     let nothing = Picture::new("nothing", still.bounds);
     let on = sheet(ui, paper, spoken, &still, &nothing, look);
-    canvas::paint_kept(&ui.painter_at(paper), &plan.over, paper, &on.fit, look);
+    canvas::paint_cached(&ui.painter_at(paper), &plan.over, paper, &on.fit, look);
     let robot = plan.task().robot;
     let places = [0, 1].map(|end| robot.reference(&plan.end_at(end)));
     if let Some((end, to)) = moved(&on, places, plan) {
@@ -182,11 +188,11 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &Look, plan: &mut PlanState) {
 }
 
 /// Shows the configuration space, where both are points, and under it what it is.
-fn space(ui: &mut Ui, paper: Rect, (still, slice): (&Arc<Picture>, &Slice), look: &Look, plan: &mut PlanState) {
+fn space(ui: &mut Ui, paper: Rect, (still, slice): (&Arc<Picture>, &Slice), look: &FrameColours, plan: &mut PlanState) {
     let spoken = format!("configuration space. {}", slice.described());
     let on = sheet(ui, paper, spoken, still, &Picture::new("nothing", still.bounds), look);
     if let Some(over) = plan.over_cells() {
-        canvas::paint_kept(&ui.painter_at(paper), &over, paper, &on.fit, look);
+        canvas::paint_cached(&ui.painter_at(paper), &over, paper, &on.fit, look);
     }
     let font = TextStyle::Small.resolve(ui.style());
     let under = paper.left_bottom() + vec2(0.0, 3.0);
@@ -216,7 +222,7 @@ fn space(ui: &mut Ui, paper: Rect, (still, slice): (&Arc<Picture>, &Slice), look
 }
 
 /// Which end is dragged, the start or the goal, and where to: that which was nearer where the pointer was pressed.
-fn moved(on: &Sheet, places: [Point2; 2], plan: &mut PlanState) -> Option<(usize, Point2)> {
+fn moved(on: &ScreenSheet, places: [Point2; 2], plan: &mut PlanState) -> Option<(usize, Point2)> {
     let to = on.held().filter(|_| on.response.dragged() || on.response.clicked())?;
     if on.response.drag_started() || on.response.clicked() {
         // egui forgets where the pointer was pressed once it is let go

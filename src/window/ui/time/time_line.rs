@@ -7,8 +7,8 @@ use bevy_egui::egui::{
     vec2,
 };
 
-use super::span::Span;
-use crate::window::ui::{Command, Dashboard, Look};
+use super::span::TickSpan;
+use crate::window::ui::{Command, Dashboard, FrameColours};
 use motion_lab_core::num::exp;
 use motion_lab_core::picture::Role;
 use motion_lab_sim::run::seconds;
@@ -27,7 +27,7 @@ const NAMES: f32 = 52.0;
 const NARROW_NAMES: f32 = 24.0;
 
 /// Number of robots up to which each has a lane.
-const MOST_LANES: usize = 3;
+const MAX_LANES: usize = 3;
 
 /// Width of the strip of time in which contacts are counted together, points.
 const BIN: f32 = 3.0;
@@ -43,18 +43,18 @@ struct Scale {
     /// The lanes' rectangle, as wide as the way of the slider's handle.
     lanes: Rect,
     /// The ticks shown, the last included.
-    span: Span,
+    span: TickSpan,
 }
 
 impl Scale {
     fn x(&self, tick: u64) -> f32 {
-        let Span { from, to } = self.span;
+        let TickSpan { from, to } = self.span;
         let share = (tick as f64 - from as f64) / to.saturating_sub(from).max(1) as f64;
         self.lanes.left() + self.lanes.width() * share as f32
     }
 
     fn tick(&self, x: f32) -> u64 {
-        let Span { from, to } = self.span;
+        let TickSpan { from, to } = self.span;
         let share = ((x - self.lanes.left()) / self.lanes.width()).clamp(0.0, 1.0);
         from + (f64::from(share) * to.saturating_sub(from) as f64).round() as u64
     }
@@ -80,7 +80,7 @@ impl Lane<'_> {
 fn lanes(model: &Dashboard) -> Vec<Lane<'_>> {
     let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
     let has_crowd = model.cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
-    if has_crowd || robots().count() > MOST_LANES {
+    if has_crowd || robots().count() > MAX_LANES {
         return vec![Lane { robot: None, name: "" }];
     }
     robots().map(|robot| Lane { robot: Some(robot.id), name: &robot.name }).collect()
@@ -91,14 +91,14 @@ pub fn time_line(
     ui: &mut Ui,
     model: &Dashboard,
     history: &History,
-    look: &Look,
-    shown: &mut Option<Span>,
+    look: &FrameColours,
+    shown: &mut Option<TickSpan>,
     wheel: bool,
     commands: &mut Vec<Command>,
 ) {
     let end = model.frontier.max(model.tick);
     *shown = shown.and_then(|span| span.with(model.tick, end));
-    let span = shown.unwrap_or(Span { from: 0, to: end });
+    let span = shown.unwrap_or(TickSpan { from: 0, to: end });
     // a low screen has one lane for all
     let is_short = look.narrow && ui.ctx().content_rect().height() < SHORT;
     let lanes = if is_short { vec![Lane { robot: None, name: "" }] } else { lanes(model) };
@@ -146,7 +146,7 @@ fn is_meant(ui: &Ui) -> bool {
 
 /// Shows less time or more as the wheel turns over the lanes; what is under the pointer stays there. Where not all of
 /// the run is shown, a thumb over the lanes says which part of it is.
-fn zoom(ui: &mut Ui, scale: &Scale, end: u64, wheel: bool, shown: &mut Option<Span>) {
+fn zoom(ui: &mut Ui, scale: &Scale, end: u64, wheel: bool, shown: &mut Option<TickSpan>) {
     let over = scale.lanes.expand2(vec2(0.0, 4.0));
     // a list that is open over the lanes keeps the wheel
     if let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|_| ui.rect_contains_pointer(over)) {
@@ -157,8 +157,8 @@ fn zoom(ui: &mut Ui, scale: &Scale, end: u64, wheel: bool, shown: &mut Option<Sp
             *shown = scale.span.zoomed(scale.tick(at.x), factor, end);
         }
     }
-    if scale.span != (Span { from: 0, to: end }) {
-        let whole = Scale { lanes: scale.lanes, span: Span { from: 0, to: end } };
+    if scale.span != (TickSpan { from: 0, to: end }) {
+        let whole = Scale { lanes: scale.lanes, span: TickSpan { from: 0, to: end } };
         let top = scale.lanes.top() - 3.0;
         let thumb = Rect::from_x_y_ranges(whole.x(scale.span.from)..=whole.x(scale.span.to), top..=top + 3.0);
         ui.painter().hline(scale.lanes.x_range(), top + 1.5, Stroke::new(1.0, ui.visuals().weak_text_color()));
@@ -173,7 +173,7 @@ fn show_lanes(
     marks: &[TickMark],
     lanes: &[Lane<'_>],
     scale: &Scale,
-    look: &Look,
+    look: &FrameColours,
     commands: &mut Vec<Command>,
 ) {
     let height = scale.lanes.height() / lanes.len().max(1) as f32;
@@ -215,7 +215,7 @@ fn show_lanes(
 
 /// Shows the name of a lane at the right end of `room`. One that is too long ends in an ellipsis, and is said in whole
 /// on hover.
-fn name(ui: &Ui, name: &str, room: Rect, look: &Look) {
+fn name(ui: &Ui, name: &str, room: Rect, look: &FrameColours) {
     let (font, colour) = (TextStyle::Small.resolve(ui.style()), look.colour(Role::Muted));
     let mut job = LayoutJob::simple_singleline(name.to_owned(), font, colour);
     job.wrap = TextWrapping::truncate_at_width(room.width());
@@ -244,7 +244,7 @@ fn say(response: Response, model: &Dashboard, mark: Option<&TickMark>, tick: u64
 }
 
 /// Shows contacts as ticks where they are few; where several fall together, the more there are, the stronger.
-fn contacts(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &Look) {
+fn contacts(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &FrameColours) {
     let ticks = ticks.filter(|tick| scale.span.holds(*tick));
     let counts = binned(ticks.map(|tick| scale.x(tick) - lane.left()), lane.width());
     let most = counts.iter().copied().max().unwrap_or(1);
@@ -267,7 +267,7 @@ fn binned(xs: impl Iterator<Item = f32>, width: f32) -> Vec<u32> {
 }
 
 /// Shows takeovers as diamonds, at least five points apart.
-fn takeovers(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &Look) {
+fn takeovers(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scale, look: &FrameColours) {
     let mut last = f32::NEG_INFINITY;
     for tick in ticks.filter(|tick| scale.span.holds(*tick)) {
         let at = pos2(scale.x(tick), lane.center().y);
@@ -281,7 +281,7 @@ fn takeovers(ui: &Ui, ticks: impl Iterator<Item = u64>, lane: Rect, scale: &Scal
 }
 
 /// Shows the axis in seconds.
-fn axis(ui: &mut Ui, scale: &Scale, look: &Look) {
+fn axis(ui: &mut Ui, scale: &Scale, look: &FrameColours) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), AXIS), Sense::hover());
     let font = TextStyle::Small.resolve(ui.style());
     let (from, to, width) = (seconds(scale.span.from), seconds(scale.span.to), scale.lanes.width());
@@ -315,70 +315,4 @@ fn shortest(seconds: f64) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_falls_together_is_counted_together() {
-        // bins of three points: 0 to 3, 3 to 6, and so on; the end of the line is in the last
-        assert_eq!(binned([7.0, 0.0, 2.9, 3.0, 8.9, 11.9].into_iter(), 11.0), [2, 1, 2, 1]);
-        assert_eq!(binned([12.5, -1.0].into_iter(), 11.0), [1, 0, 0, 1]);
-        assert_eq!(binned(std::iter::empty(), 2.0), [0]);
-    }
-
-    #[test]
-    fn a_lane_has_what_happened_to_its_robot() {
-        let mark = |tick, robot, what| TickMark { tick, robot, what, at: Default::default() };
-        use Happening::{Contact, Takeover};
-        let marks = [mark(3, 0, Contact), mark(5, 1, Contact), mark(5, 0, Takeover), mark(9, 0, Contact)];
-        let of = |robot, what| Lane { robot, name: "" }.of(&marks, what).collect::<Vec<u64>>();
-        assert_eq!((of(Some(0), Contact), of(Some(0), Takeover), of(Some(1), Takeover)), (vec![3, 9], vec![5], vec![]));
-        assert_eq!(of(None, Contact), [3, 5, 9]);
-    }
-
-    #[test]
-    fn a_long_name_ends_within_its_room() {
-        use bevy_egui::egui::{Context, RawInput};
-        let room = Rect::from_min_max(pos2(20.0, 40.0), pos2(72.0, 52.0));
-        for (words, is_elided) in [("Rusty", false), ("the forklift at the northern gate", true)] {
-            let mut output = Context::default().run_ui(RawInput::default(), |ui| {
-                name(ui, words, room, &Look::from(motion_lab_core::picture::Theme::Light));
-            });
-            output.textures_delta.clear();
-            let painted = output.shapes.iter().find_map(|clipped| match &clipped.shape {
-                Shape::Text(text) => Some((text.galley.elided, text.galley.mesh_bounds.translate(text.pos.to_vec2()))),
-                _ => None,
-            });
-            let (elided, ink) = painted.expect("the name");
-            assert_eq!(elided, is_elided, "{words}");
-            // the edges of letters are soft
-            assert!(
-                room.expand(1.0).x_range().contains(ink.left()) && ink.right() <= room.right() + 1.0,
-                "{words} at {ink} in {room}"
-            );
-        }
-    }
-
-    #[test]
-    fn the_axis_has_labels_apart_at_round_seconds() {
-        // a minute over 1,200 points: 64 points are 3.2 s, so every 5 s
-        assert_eq!(step_of(60.0, 1200.0), 5.0);
-        assert_eq!(step_of(60.0, 300.0), 15.0);
-        assert_eq!(step_of(0.05, 1200.0), 0.05);
-        assert_eq!(step_of(3600.0, 600.0), 600.0);
-        assert_eq!([0.05, 0.1, 5.0, 60.0, 1800.0].map(shortest), ["0.05", "0.1", "5", "60", "1800"]);
-    }
-
-    #[test]
-    fn a_place_on_the_line_is_the_tick_that_is_drawn_there() {
-        let lanes = Rect::from_min_max(pos2(100.0, 0.0), pos2(1300.0, 27.0));
-        let scale = Scale { lanes, span: Span { from: 0, to: 1200 } };
-        assert_eq!([0, 600, 1200].map(|tick| scale.x(tick)), [100.0, 700.0, 1300.0]);
-        assert_eq!([0.0, 100.0, 701.0, 1300.0, 2000.0].map(|x| scale.tick(x)), [0, 0, 601, 1200, 1200]);
-        let unstarted = Scale { lanes, span: Span { from: 0, to: 0 } };
-        assert_eq!((unstarted.x(0), unstarted.tick(900.0)), (100.0, 0));
-        let near = Scale { lanes, span: Span { from: 600, to: 900 } };
-        assert_eq!([600, 750, 900].map(|tick| near.x(tick)), [100.0, 700.0, 1300.0]);
-        assert_eq!([0.0, 104.0, 700.0, 2000.0].map(|x| near.tick(x)), [600, 601, 750, 900]);
-    }
-}
+mod tests;

@@ -10,8 +10,8 @@ use crate::window::ui::keys::{TimeAction, hint};
 use crate::window::ui::paint::button::{LabButton, SIGN, sign_width};
 use crate::window::ui::paint::fold::form;
 use crate::window::ui::paint::icon::Icon;
-use crate::window::ui::paint::plate::{Place, plate, refusal};
-use crate::window::ui::{Command, Dashboard, Look, SeedDraft, UiState};
+use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
+use crate::window::ui::{Command, Dashboard, FrameColours, SeedDraft, UiState};
 use motion_lab_core::picture::Role;
 use motion_lab_core::random::Seed;
 use motion_lab_sim::run::DT;
@@ -75,7 +75,7 @@ pub fn transport_bar(
     ui: &mut Ui,
     model: &Dashboard,
     history: &History,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -117,7 +117,7 @@ pub fn transport_bar(
 fn essential(
     ui: &mut Ui,
     model: &Dashboard,
-    look: &Look,
+    look: &FrameColours,
     (beside, has_seed): (f32, bool),
     state: &mut UiState,
     commands: &mut Vec<Command>,
@@ -162,7 +162,7 @@ const ESSENTIAL: [Signed; 6] = [BACK, PLAY, STEP, NEXT, RESET, RE_ROLL];
 const MORE: [(&str, TimeAction); 3] =
     [("To the start", TimeAction::Start), ("Loop", TimeAction::Loop), ("Continue from here", TimeAction::Continue)];
 
-fn buttons(ui: &mut Ui, model: &Dashboard, look: &Look, signs: &[Signed], commands: &mut Vec<Command>) {
+fn buttons(ui: &mut Ui, model: &Dashboard, look: &FrameColours, signs: &[Signed], commands: &mut Vec<Command>) {
     for &(label, icon, action) in signs {
         let shown = match action {
             TimeAction::PlayPause if model.playing => LabButton::new("Pause").icon(Icon::Pause).width(PLAY_WIDTH),
@@ -180,7 +180,7 @@ fn button(
     ui: &mut Ui,
     model: &Dashboard,
     (shown, action): (LabButton<'_>, TimeAction),
-    look: &Look,
+    look: &FrameColours,
     commands: &mut Vec<Command>,
 ) {
     let shown = match action {
@@ -220,7 +220,7 @@ fn speed_choice(ui: &mut Ui, model: &Dashboard, commands: &mut Vec<Command>) {
 fn seed_and_time(
     ui: &mut Ui,
     model: &Dashboard,
-    look: &Look,
+    look: &FrameColours,
     top: f32,
     state: &mut UiState,
     commands: &mut Vec<Command>,
@@ -234,7 +234,7 @@ fn seed_and_time(
 fn seed(
     ui: &mut Ui,
     model: &Dashboard,
-    look: &Look,
+    look: &FrameColours,
     top: Option<f32>,
     state: &mut UiState,
     commands: &mut Vec<Command>,
@@ -248,7 +248,7 @@ fn seed(
 }
 
 /// Shows the time at the right end, where there is room with the tick and a note.
-fn time(ui: &mut Ui, model: &Dashboard, look: &Look) {
+fn time(ui: &mut Ui, model: &Dashboard, look: &FrameColours) {
     let is_short = ui.available_width() < 170.0;
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let seconds = DT * model.tick as f64;
@@ -265,7 +265,13 @@ fn time(ui: &mut Ui, model: &Dashboard, look: &Look) {
 /// Shows the seed as an editable field and returns a new one when Enter is pressed. Text that is no seed stays for
 /// mending until it is a seed; Escape, a press beside the field and another run put the present seed back. The reason
 /// stands beside the field, in a low row over `top`, so that it covers nothing of the time line.
-fn seed_field(ui: &mut Ui, model: &Dashboard, top: Option<f32>, look: &Look, state: &mut UiState) -> Option<Seed> {
+fn seed_field(
+    ui: &mut Ui,
+    model: &Dashboard,
+    top: Option<f32>,
+    look: &FrameColours,
+    state: &mut UiState,
+) -> Option<Seed> {
     let label = ui.label("seed");
     let is_of_run = |draft: &SeedDraft| draft.of == model.seed && draft.frontier <= model.frontier;
     let draft = state.seed.take().filter(is_of_run);
@@ -288,9 +294,9 @@ fn seed_field(ui: &mut Ui, model: &Dashboard, top: Option<f32>, look: &Look, sta
         let beside = response.rect.right_center() + vec2(2.0, 0.0);
         let width = ui.max_rect().right() - beside.x - TIME_ROOM;
         let place = if width >= REASON {
-            Place { at: beside, pivot: Align2::LEFT_CENTER, width }
+            PlateAnchor { at: beside, pivot: Align2::LEFT_CENTER, width }
         } else {
-            Place { at: pos2(label.rect.left(), top - 4.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 }
+            PlateAnchor { at: pos2(label.rect.left(), top - 4.0), pivot: Align2::LEFT_BOTTOM, width: 340.0 }
         };
         plate(ui.ctx(), "seed", place, false, look, |ui| refusal(ui, &no_seed(&text), look));
     }

@@ -21,7 +21,7 @@ pub(crate) struct Cells {
 
 /// Where a point lies in the grid.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Place {
+pub(crate) struct GridCell {
     pub(crate) column: i64,
     pub(crate) row: i64,
     /// Lower bounds on the distance to the right, left, upper and lower side of the point's cell, metres.
@@ -29,7 +29,7 @@ pub(crate) struct Place {
 }
 
 /// About the largest number of cells along a side: no cell is smaller than the longer side divided by this.
-const MOST: f64 = 512.0;
+const MAX_CELLS_A_SIDE: f64 = 512.0;
 /// Largest average number of cells that a segment or disc may touch. Larger cells meet it in the end: a grid has at
 /// least four cells, and at worst each segment or disc touches all of them.
 const PAIRS: usize = 16;
@@ -47,7 +47,7 @@ impl Cells {
             .copied()
             .reduce(|a, b| [lesser(a[0], b[0]), lesser(a[1], b[1]), greater(a[2], b[2]), greater(a[3], b[3])])?;
         let (width, height) = (x1 - x0, y1 - y0);
-        let mut size = greater(1.6 * sqrt(width * height / count as f64), greater(width, height) / MOST);
+        let mut size = greater(1.6 * sqrt(width * height / count as f64), greater(width, height) / MAX_CELLS_A_SIDE);
         let (mut grid, mut pairs) = loop {
             // the grid reaches a little beyond the boundary, so that rounding puts nothing outside
             size *= 1.0 + 1e-9;
@@ -122,27 +122,27 @@ impl Cells {
     }
 
     /// The place of a point, which may lie outside the grid.
-    pub(crate) fn place(&self, p: Point2) -> Place {
+    pub(crate) fn place(&self, p: Point2) -> GridCell {
         let (x, y) = ((p.x - self.corner.x) / self.size, (p.y - self.corner.y) / self.size);
         let (column, row) = (x.floor(), y.floor());
         let (fx, fy) = (x - column, y - row);
         let sides = [1.0 - fx, fx, 1.0 - fy, fy].map(|f| greater(f - 1e-6, 0.0) * self.size);
-        Place { column: column as i64, row: row as i64, sides }
+        GridCell { column: column as i64, row: row as i64, sides }
     }
 
     /// Lower bounds on the distance from a place to the right, left, upper and lower side of the square of cells inside
     /// ring number `ring`, metres.
-    pub(crate) fn sides(&self, place: &Place, ring: i64) -> [f64; 4] {
+    pub(crate) fn sides(&self, place: &GridCell, ring: i64) -> [f64; 4] {
         place.sides.map(|side| side + (ring - 1) as f64 * self.size * (1.0 - 1e-9))
     }
 
     /// A lower bound on the distance from a place to anything in ring number `ring` or beyond, metres.
-    pub(crate) fn least_distance(&self, place: &Place, ring: i64) -> f64 {
+    pub(crate) fn least_distance(&self, place: &GridCell, ring: i64) -> f64 {
         if ring == 0 { 0.0 } else { self.sides(place, ring).into_iter().fold(f64::INFINITY, lesser) }
     }
 
     /// The first ring about a place that holds cells of the grid, and the last.
-    pub(crate) fn rings(&self, place: &Place) -> (i64, i64) {
+    pub(crate) fn rings(&self, place: &GridCell) -> (i64, i64) {
         let outside = |x: i64, count: i64| (-x).max(x - count + 1).max(0);
         let farthest = |x: i64, count: i64| x.abs().max((count - 1 - x).abs());
         (
@@ -181,7 +181,7 @@ impl Cells {
     }
 
     /// Calls `visit` with each cell of ring number `ring` about a place.
-    pub(crate) fn each_in_ring(&self, place: &Place, ring: i64, mut visit: impl FnMut(usize)) {
+    pub(crate) fn each_in_ring(&self, place: &GridCell, ring: i64, mut visit: impl FnMut(usize)) {
         let (left, right) = (place.column - ring, place.column + ring);
         let (low, high) = (place.row - ring, place.row + ring);
         let mut cell = |i: i64, j: i64| visit(self.number(i, j));

@@ -1,4 +1,4 @@
-//! `Tree`, the bounding-volume tree over many pieces. The only file that imports parry.
+//! `BoxTree`, the bounding-volume tree over many pieces. The only file that imports parry.
 
 use std::cell::Cell;
 
@@ -10,15 +10,15 @@ use crate::geometry::{Aabb, Point2, square};
 
 /// parry's tree; it only prunes.
 #[derive(Clone)]
-pub(crate) struct Tree(Bvh);
+pub(crate) struct BoxTree(Bvh);
 
-impl Tree {
+impl BoxTree {
     /// The tree over boxes, known by their numbers.
     pub(crate) fn new(extents: &[Aabb]) -> Self {
         let vector = |p: Point2| Vector::new(p.x, p.y);
         let boxes: Vec<bounding_volume::Aabb> =
             extents.iter().map(|e| bounding_volume::Aabb::new(vector(e.min), vector(e.max))).collect();
-        Tree(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
+        BoxTree(Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes))
     }
 
     /// Calls `look` with every box that may hold something no farther than the least distance so far, which `look`

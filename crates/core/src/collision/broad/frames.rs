@@ -13,18 +13,18 @@ const ROUNDING: f64 = 4e-6;
 type Eight = [[f32; LANES]; 2];
 
 /// Eight turned boxes: their centres, and half of either side.
-type Boxes = [Eight; 3];
+type TurnedBoxes = [Eight; 3];
 
 /// Turned boxes around at most [`FEW`] pieces, in single precision, eight side by side.
 #[derive(Clone, Debug)]
 pub(crate) struct Frames {
     count: usize,
-    boxes: Vec<Boxes>,
+    boxes: Vec<TurnedBoxes>,
 }
 
 /// A line by its middle, its unit direction and half its length, metres.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Line {
+pub(crate) struct CentredLine {
     pub(crate) middle: Point2,
     pub(crate) direction: Vector2,
     pub(crate) half: f64,
@@ -32,7 +32,7 @@ pub(crate) struct Line {
 
 /// The line of a capsule as the test needs it.
 #[derive(Clone, Copy)]
-struct Way {
+struct CapsuleLine {
     middle: [f32; 2],
     direction: [f32; 2],
     /// How far from the line, and along it from its middle, the capsule's own box reaches, metres.
@@ -46,7 +46,7 @@ impl Frames {
         if pieces.len() > FEW {
             return None;
         }
-        let boxes = vec![Boxes::default(); pieces.len().div_ceil(LANES)];
+        let boxes = vec![TurnedBoxes::default(); pieces.len().div_ceil(LANES)];
         let mut frames = Frames { count: pieces.len(), boxes };
         for (i, piece) in pieces.iter().enumerate() {
             let (centre, [side, other]) = turned_box(piece);
@@ -60,10 +60,10 @@ impl Frames {
     /// The pieces that a disc of this radius may touch while its centre runs along the line, as bits by their numbers.
     /// A piece that is left out is farther than the radius by more than a millionth of `size`, which is at least the
     /// sum of two coordinates.
-    pub(crate) fn near(&self, line: Line, radius: f64, size: f64) -> u64 {
-        let Line { middle, direction, half } = line;
+    pub(crate) fn near(&self, line: CentredLine, radius: f64, size: f64) -> u64 {
+        let CentredLine { middle, direction, half } = line;
         let beside = radius + ROUNDING * size;
-        let way = Way {
+        let way = CapsuleLine {
             middle: [middle.x as f32, middle.y as f32],
             direction: [direction.x as f32, direction.y as f32],
             beside: beside as f32,
@@ -108,8 +108,8 @@ fn core_box(core: &[Point2]) -> (Point2, [Vector2; 2]) {
     not(baseline),
     multiversion::multiversion(targets("x86_64+avx512f+avx512bw+avx512cd+avx512dq+avx512vl", "x86_64+avx2"))
 )]
-fn near_bits(boxes: &[Boxes], way: Way) -> u64 {
-    let Way { middle: [x, y], direction: [dx, dy], beside, along } = way;
+fn near_bits(boxes: &[TurnedBoxes], way: CapsuleLine) -> u64 {
+    let CapsuleLine { middle: [x, y], direction: [dx, dy], beside, along } = way;
     let mut bits = 0;
     for (block, [[cx, cy], [ax, ay], [bx, by]]) in boxes.iter().enumerate() {
         let mut near = 0_u32;
@@ -162,7 +162,7 @@ mod tests {
                 let mut at = || Point2::new(offset + draws.uniform(0.0, 12.0), offset + draws.uniform(0.0, 12.0));
                 let (a, b, radius) = (at(), at(), draws.uniform(0.01, 0.3));
                 let length = (b - a).norm();
-                let line = Line { middle: a + (b - a) * 0.5, direction: (b - a) / length, half: 0.5 * length };
+                let line = CentredLine { middle: a + (b - a) * 0.5, direction: (b - a) / length, half: 0.5 * length };
                 let bits = frames.near(line, radius, 2.0 * (offset.abs() + 15.0));
                 assert!(count == 64 || bits >> count == 0, "{bits:x} of {count}");
                 let capsule = Placed::new([a, b], radius);
@@ -186,7 +186,7 @@ mod tests {
         assert_eq!(Frames::new(&[]).unwrap().near(line(), 0.1, 2.0), 0);
     }
 
-    fn line() -> Line {
-        Line { middle: Point2::origin(), direction: Vector2::x(), half: 1.0 }
+    fn line() -> CentredLine {
+        CentredLine { middle: Point2::origin(), direction: Vector2::x(), half: 1.0 }
     }
 }

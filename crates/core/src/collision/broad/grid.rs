@@ -13,12 +13,12 @@ pub(crate) struct PieceGrid {
     rows: u16,
     /// Where each cell's list begins in `items`, row by row, and where the last ends.
     starts: Vec<u32>,
-    items: Vec<Item>,
+    items: Vec<GridItem>,
 }
 
 /// A box in a cell's list, with its piece and all cells that it touches.
 #[derive(Clone, Copy, Debug)]
-struct Item {
+struct GridItem {
     extent: Aabb,
     piece: u32,
     cells: Block,
@@ -45,7 +45,7 @@ impl Block {
 }
 
 /// About the largest number of cells along a side: no cell is smaller than the longer side divided by this.
-const MOST: f64 = 512.0;
+const MAX_CELLS_A_SIDE: f64 = 512.0;
 /// Largest number of pieces that may touch one cell; beyond it a tree is the better choice.
 const CROWD: u32 = 32;
 /// Largest average number of cells that a piece may touch; beyond it a tree is the better choice.
@@ -61,7 +61,7 @@ impl PieceGrid {
         let (width, height) = (all.max.x - all.min.x, all.max.y - all.min.y);
         let longest = if width > height { width } else { height };
         let fair = 1.25 * sqrt(width * height / extents.len() as f64);
-        let size = if fair > longest / MOST { fair } else { longest / MOST };
+        let size = if fair > longest / MAX_CELLS_A_SIDE { fair } else { longest / MAX_CELLS_A_SIDE };
         if !(size > 0.0 && size < 1e100) {
             return None;
         }
@@ -90,11 +90,11 @@ impl PieceGrid {
         }
         let mut next = counts.clone();
         let nothing = Aabb { min: all.min, max: all.min };
-        let mut items = vec![Item { extent: nothing, piece: 0, cells: grid.block(&nothing) }; entries];
+        let mut items = vec![GridItem { extent: nothing, piece: 0, cells: grid.block(&nothing) }; entries];
         for (piece, extent) in extents.iter().enumerate() {
             let cells = grid.block(extent);
             grid.each_cell(&cells, |cell| {
-                items[next[cell] as usize] = Item { extent: *extent, piece: piece as u32, cells };
+                items[next[cell] as usize] = GridItem { extent: *extent, piece: piece as u32, cells };
                 next[cell] += 1;
             });
         }
@@ -120,7 +120,7 @@ impl PieceGrid {
 
     /// Calls `visit` once with each box that touches a cell of `block` but none of `without`, until it returns true.
     #[inline]
-    fn each_in(&self, block: &Block, without: Option<&Block>, mut visit: impl FnMut(&Item) -> bool) {
+    fn each_in(&self, block: &Block, without: Option<&Block>, mut visit: impl FnMut(&GridItem) -> bool) {
         for j in block.low..=block.high {
             for i in block.left..=block.right {
                 let cell = usize::from(j) * usize::from(self.columns) + usize::from(i);

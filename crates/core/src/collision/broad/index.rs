@@ -1,6 +1,6 @@
 //! `Index`, the boxes of a scene's pieces in the structure that suits their number and spread.
 
-use super::bvh::Tree;
+use super::bvh::BoxTree;
 use super::grid::PieceGrid;
 use super::linear::{Boxes, FEW};
 use crate::geometry::Aabb;
@@ -14,7 +14,7 @@ pub struct Index(Structure);
 enum Structure {
     Few(Boxes),
     Grid(PieceGrid),
-    Tree(Tree),
+    Tree(BoxTree),
 }
 
 impl Index {
@@ -23,7 +23,7 @@ impl Index {
         if extents.len() <= FEW {
             return Index(Structure::Few(Boxes::new(extents)));
         }
-        Index(PieceGrid::new(extents).map_or_else(|| Structure::Tree(Tree::new(extents)), Structure::Grid))
+        Index(PieceGrid::new(extents).map_or_else(|| Structure::Tree(BoxTree::new(extents)), Structure::Grid))
     }
 
     /// Calls `look` with every piece that may be as near as the least distance so far, which `look` returns, until no
@@ -73,7 +73,7 @@ mod tests {
             let extents = boxes(count, spread, &mut draws);
             let index = Index::new(&extents);
             assert_eq!(matches!(index.0, Structure::Grid(_)), grid, "{count} in {spread}");
-            let tree = Index(Structure::Tree(Tree::new(&extents)));
+            let tree = Index(Structure::Tree(BoxTree::new(&extents)));
             for _ in 0..300 {
                 let side = 2.0 * spread as f64;
                 let (x, y) = (draws.uniform(-side, side), draws.uniform(-side, side));

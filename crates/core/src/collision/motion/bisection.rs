@@ -4,16 +4,16 @@
 use smallvec::SmallVec;
 
 use super::conservative_advancement::BRACKET;
-use super::place::{ContactAhead, Place};
+use super::place::{At, ContactAhead};
 use crate::geometry::Footprint;
 use crate::num::{greater, lesser, sqrt};
 use crate::robots::Motion;
 
 /// Largest number of steps in a proof; with more the caller falls back to the march.
-const MOST: usize = 24;
+const MAX_STEPS: usize = 24;
 
 /// Steps, each as its start and its end.
-type Steps = SmallVec<[(f64, f64); MOST]>;
+type Steps = SmallVec<[(f64, f64); MAX_STEPS]>;
 
 /// Largest number of contacts tried, each before the last: the contact bracketed first need not be the motion's first.
 const CONTACTS: u32 = 8;
@@ -23,7 +23,7 @@ const TRIES: u32 = 40;
 
 /// Bounds on the speed and acceleration of the parts that may hit, as in `Rates`.
 #[derive(Clone, Copy)]
-pub(crate) struct Pace {
+pub(crate) struct SpeedBounds {
     pub(crate) speed: f64,
     pub(crate) acceleration: f64,
 }
@@ -52,9 +52,9 @@ pub(crate) struct Pinched {
 /// two places proves, metres.
 pub(crate) fn pinch<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
-    clearance: impl Fn(Place, Place) -> f64,
+    clearance: impl Fn(At, At) -> f64,
     motion: &M,
-    pace: Pace,
+    pace: SpeedBounds,
     ahead: ContactAhead,
 ) -> Option<Pinched> {
     let gap_at = |s: f64| gap(&motion.footprint_at(s));
@@ -74,17 +74,17 @@ pub(crate) fn pinch<M: Motion>(
 /// steps, last first, or a contact between the two; `None` where it finds neither.
 fn prove_back<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
-    clearance: impl Fn(Place, Place) -> f64,
+    clearance: impl Fn(At, At) -> f64,
     motion: &M,
-    pace: Pace,
-    start: Place,
+    pace: SpeedBounds,
+    start: At,
     near: Near,
 ) -> Option<Result<Steps, f64>> {
-    let Place { s: lo, footprint: at_lo } = start;
+    let At { s: lo, footprint: at_lo } = start;
     let mut steps = Steps::new();
     let (mut hi, mut at_hi, mut room) = (near.s, motion.footprint_at(near.s), near.gap);
     while hi > lo {
-        if steps.len() == MOST {
+        if steps.len() == MAX_STEPS {
             return None;
         }
         // as far back as the room, which is least at the end nearer to the contact, exceeds one and a half times the
@@ -93,7 +93,7 @@ fn prove_back<M: Motion>(
         let (from, at_from) = loop {
             let from = if h < hi - lo { hi - h } else { lo };
             let at_from = if from == lo { at_lo.clone() } else { motion.footprint_at(from) };
-            if clearance(Place::new(from, &at_from), Place::new(hi, &at_hi)) > 0.0 {
+            if clearance(At::new(from, &at_from), At::new(hi, &at_hi)) > 0.0 {
                 break (from, at_from);
             }
             if from > lo && gap(&at_from) <= 0.0 {
@@ -112,7 +112,7 @@ fn prove_back<M: Motion>(
 }
 
 /// A free place and a contact after it, not farther apart than [`BRACKET`]; `None` after too many queries.
-fn approach(gap_at: impl Fn(f64) -> f64, pace: Pace, mut near: Near, mut contact: f64) -> Option<(Near, f64)> {
+fn approach(gap_at: impl Fn(f64) -> f64, pace: SpeedBounds, mut near: Near, mut contact: f64) -> Option<(Near, f64)> {
     // a little less than the bracket, so that its two ends fit in it
     let fine = 0.45 * BRACKET / pace.speed;
     for _ in 0..TRIES {
@@ -150,7 +150,7 @@ mod tests {
     fn a_contact_is_approached_in_a_few_questions() {
         // gaps that close evenly, ever faster, and hardly at all; the first contact is at 0.7
         let gaps: [fn(f64) -> f64; 3] = [|s| 0.7 - s, |s| 0.49 - s * s, |s| 0.02 * (0.7 - s)];
-        let pace = Pace { speed: 2.0, acceleration: 2.0 };
+        let pace = SpeedBounds { speed: 2.0, acceleration: 2.0 };
         for (i, gap) in gaps.into_iter().enumerate() {
             let asked = Cell::new(0);
             let gap_at = |s: f64| {

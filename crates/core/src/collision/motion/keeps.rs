@@ -2,7 +2,7 @@
 
 use super::conservative_advancement::{clearance_of_all, march, march_on};
 use super::decide::is_free_or;
-use super::place::{Ends, Start};
+use super::place::{Ends, MotionStart};
 use super::separation::is_separated;
 use crate::collision::{Collision, EdgeVerdict, MarchOptions};
 use crate::robots::Motion;
@@ -47,7 +47,7 @@ pub fn keeps<M: Motion>(
     if all > options.margin {
         return Ok(());
     }
-    match march_on(collision, motion, options, None, Start { footprint: start, distance: clearance }) {
+    match march_on(collision, motion, options, None, MotionStart { footprint: start, distance: clearance }) {
         EdgeVerdict::Free { .. } => Ok(()),
         EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => {
             Err(Blocked { start: clearance, until: free_until })

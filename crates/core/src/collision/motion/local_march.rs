@@ -2,10 +2,10 @@
 
 use smallvec::SmallVec;
 
-use super::bisection::{Pace, pinch};
-use super::conservative_advancement::{Ground, go, hit, march_on, width};
+use super::bisection::{SpeedBounds, pinch};
+use super::conservative_advancement::{MarchQueries, go, hit, march_on, width};
 use super::local_scene::Vicinity;
-use super::place::{ContactAhead, Course, Place, Start};
+use super::place::{At, ContactAhead, Course, MotionStart};
 use super::step::{rounding, step_clearance};
 use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ProvenStep, Scene};
 use crate::geometry::{Aabb, Footprint, largest_coordinate};
@@ -46,7 +46,7 @@ pub(crate) fn march_nearby<M: Motion>(
     let end = motion.footprint_at(1.0);
     if budget == 0 || !(start.is_valid() && end.is_valid()) {
         let (distance, options) = (scene.distance(&start), MarchOptions { margin: 0.0, budget });
-        return march_on(scene, motion, options, certificate, Start { footprint: start, distance });
+        return march_on(scene, motion, options, certificate, MotionStart { footprint: start, distance });
     }
     let parts = start.parts().len();
     let mut march = Nearby {
@@ -76,7 +76,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
     /// Tries to prove the whole motion in one step. If that fails, finds the open parts and the pieces they can come
     /// near.
     fn whole(&mut self, start: &Footprint, end: &Footprint) -> bool {
-        let (from, to) = (Place::new(0.0, start), Place::new(1.0, end));
+        let (from, to) = (At::new(0.0, start), At::new(1.0, end));
         let all = std::mem::take(&mut self.open);
         let mut least = f64::INFINITY;
         let mut swept: Option<Aabb> = None;
@@ -111,7 +111,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
     /// The sagitta of a part in a step, the distance of its hull and that distance's rounding, metres. A distance of no
     /// more than the sagitta is only an upper bound: the step fails in any case. A distance that would neither fail the
     /// step nor lower the clearance is only a lower bound.
-    fn clears(&self, part: usize, from: Place, to: Place) -> (f64, f64, f64) {
+    fn clears(&self, part: usize, from: At, to: At) -> (f64, f64, f64) {
         let hull = from.footprint.parts()[part].placed().hull_with(to.footprint.parts()[part].placed());
         let (size, sagitta) = (largest_coordinate([&hull]), self.motion.sagitta(part, from.s, to.s));
         let reach = self.clearance + sagitta;
@@ -122,7 +122,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
 
     /// The clearance that a step proves for the open parts, metres; not positive when it proves nothing. Only a lower
     /// bound where it is more than the clearance so far.
-    fn open_clearance(&self, from: Place, to: Place) -> f64 {
+    fn open_clearance(&self, from: At, to: At) -> f64 {
         let mut least = f64::INFINITY;
         for &k in &self.open {
             let (sagitta, distance, rounding) = self.clears(k, from, to);
@@ -149,8 +149,8 @@ impl<'a, M: Motion> Nearby<'a, M> {
     }
 }
 
-impl<M: Motion> Ground for Nearby<'_, M> {
-    fn proves(&mut self, from: Place, to: Place) -> bool {
+impl<M: Motion> MarchQueries for Nearby<'_, M> {
+    fn proves(&mut self, from: At, to: At) -> bool {
         let open = self.open_clearance(from, to);
         if open <= 0.0 {
             return false;
@@ -180,15 +180,15 @@ impl<M: Motion> Ground for Nearby<'_, M> {
 
     fn pinched(&mut self, ahead: ContactAhead) -> Option<EdgeVerdict> {
         let acceleration = self.open.iter().fold(0.0, |most, &k| greater(self.motion.rates(k).acceleration, most));
-        let pace = Pace { speed: self.width(0.0, 1.0), acceleration };
+        let pace = SpeedBounds { speed: self.width(0.0, 1.0), acceleration };
         let range = self.around.range();
         let gap_at = |footprint: &Footprint| self.open_gap(footprint, range);
-        let clearance = |from: Place, to: Place| self.open_clearance(from, to);
+        let clearance = |from: At, to: At| self.open_clearance(from, to);
         let found = pinch(gap_at, clearance, self.motion, pace, ahead)?;
         if let Some(c) = self.certificate.as_deref_mut() {
             for &(lo, hi) in found.steps.iter().rev() {
                 let [at_lo, at_hi] = [lo, hi].map(|s| self.motion.footprint_at(s));
-                let (from, to) = (Place::new(lo, &at_lo), Place::new(hi, &at_hi));
+                let (from, to) = (At::new(lo, &at_lo), At::new(hi, &at_hi));
                 let clearance = step_clearance(self.scene, self.motion, from, to);
                 c.push(ProvenStep { from: lo, to: hi, clearance });
             }

@@ -3,20 +3,20 @@
 use smallvec::SmallVec;
 
 use crate::collision::Scene;
-use crate::collision::narrow::nearest::Search;
+use crate::collision::narrow::nearest::NearestSearch;
 use crate::collision::narrow::pair::touches;
 use crate::geometry::{Aabb, Placed, square};
 use crate::num::lesser;
 
 /// Largest number of pieces in a vicinity; with more it queries the scene.
-const MOST: usize = 64;
+const MAX_PIECES: usize = 64;
 
 /// The pieces of a scene within a range of where a motion goes. For shapes along the motion it answers as the scene
 /// does. It queries the scene only beyond the range, or where the pieces are too many to be worth collecting.
 pub(crate) struct Vicinity<'a> {
     scene: &'a Scene,
     range: f64,
-    pieces: Option<SmallVec<[(Aabb, u32); MOST]>>,
+    pieces: Option<SmallVec<[(Aabb, u32); MAX_PIECES]>>,
 }
 
 impl<'a> Vicinity<'a> {
@@ -30,7 +30,7 @@ impl<'a> Vicinity<'a> {
         let mut pieces = SmallVec::new();
         let mut fits = true;
         scene.index.each_near(within, range, |piece| {
-            fits = pieces.len() < MOST;
+            fits = pieces.len() < MAX_PIECES;
             if fits {
                 pieces.push((scene.pieces[piece].padded_bounds(), piece as u32));
             }
@@ -54,7 +54,7 @@ impl<'a> Vicinity<'a> {
 
     /// As [`distance`](Self::distance), among all pieces of the scene.
     fn in_scene(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
-        let mut look = Look::new(self.scene, shape, enough, within);
+        let mut look = DistanceSearch::new(self.scene, shape, enough, within);
         let from = look.extent();
         self.scene.index.nearest(&from, within, |piece| look.at(piece));
         look.found()
@@ -62,9 +62,9 @@ impl<'a> Vicinity<'a> {
 
     /// As [`distance`](Self::distance), among these pieces alone.
     fn among(&self, pieces: &[(Aabb, u32)], shape: &Placed, enough: f64, within: f64) -> Option<f64> {
-        let mut look = Look::new(self.scene, shape, enough, within);
+        let mut look = DistanceSearch::new(self.scene, shape, enough, within);
         let from = look.extent();
-        let mut squares = [f64::INFINITY; MOST];
+        let mut squares = [f64::INFINITY; MAX_PIECES];
         let (mut first, mut nearest) = (0, f64::INFINITY);
         for (i, ((extent, _), distance)) in pieces.iter().zip(&mut squares).enumerate() {
             *distance = from.squared_distance(extent);
@@ -103,17 +103,17 @@ impl<'a> Vicinity<'a> {
 }
 
 /// A search for the distance alone, which stops once a distance of at most `enough` is found.
-struct Look<'a> {
-    search: Search<'a>,
+struct DistanceSearch<'a> {
+    search: NearestSearch<'a>,
     within: f64,
     enough: f64,
     /// The distance found that is at most `enough`, metres.
     near: Option<f64>,
 }
 
-impl<'a> Look<'a> {
+impl<'a> DistanceSearch<'a> {
     fn new(scene: &'a Scene, shape: &'a Placed, enough: f64, within: f64) -> Self {
-        Look { search: scene.search(shape, within), within, enough, near: None }
+        DistanceSearch { search: scene.search(shape, within), within, enough, near: None }
     }
 
     fn extent(&self) -> Aabb {
@@ -172,7 +172,7 @@ mod tests {
         }
         assert!(beyond > 10 && beyond < 290, "{beyond} beyond the range");
         let wall = |k: u32| Segment::new(Point2::new(f64::from(k), 0.0), Point2::new(f64::from(k), 1.0));
-        let walls: Vec<Segment> = (0..=MOST as u32).map(wall).collect();
+        let walls: Vec<Segment> = (0..=MAX_PIECES as u32).map(wall).collect();
         let all = Aabb { min: Point2::origin(), max: Point2::new(99.0, 1.0) };
         assert!(Vicinity::new(&Scene::of_walls(&walls), &all, 1.0).pieces.is_none(), "too much to be worth it");
         assert!(Vicinity::new(&Scene::of_walls(&walls[1..]), &all, 1.0).pieces.is_some());

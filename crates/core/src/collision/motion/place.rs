@@ -4,18 +4,18 @@ use crate::geometry::Footprint;
 
 /// A place of a motion.
 #[derive(Clone, Copy)]
-pub(crate) struct Place<'a> {
+pub(crate) struct At<'a> {
     /// The parameter, in `[0, 1]`.
     pub(crate) s: f64,
     /// The footprint there.
     pub(crate) footprint: &'a Footprint,
 }
 
-impl<'a> Place<'a> {
+impl<'a> At<'a> {
     /// The place at `s`.
     #[inline]
     pub(crate) fn new(s: f64, footprint: &'a Footprint) -> Self {
-        Place { s, footprint }
+        At { s, footprint }
     }
 }
 
@@ -29,7 +29,7 @@ pub(crate) struct Ends<'a> {
 }
 
 /// The start of a motion.
-pub(crate) struct Start {
+pub(crate) struct MotionStart {
     /// The footprint there.
     pub(crate) footprint: Footprint,
     /// Its distance from the nearest obstacle, metres; 0 in contact.
@@ -50,7 +50,7 @@ pub(crate) struct Course<'a> {
 #[derive(Clone, Copy)]
 pub(crate) struct ContactAhead<'a> {
     /// The free place.
-    pub(crate) from: Place<'a>,
+    pub(crate) from: At<'a>,
     /// The clearance there, less the margin, metres.
     pub(crate) gap: f64,
     /// The parameter at which there is contact.

@@ -2,7 +2,7 @@
 
 use smallvec::SmallVec;
 
-use super::place::{Ends, Place};
+use super::place::{At, Ends};
 use crate::collision::narrow::convex::edges;
 use crate::collision::{Collision, Scene};
 use crate::geometry::{Aabb, Placed, Point2, Vector2};
@@ -21,7 +21,7 @@ pub(crate) fn is_separated<M: Motion>(collision: &dyn Collision, motion: &M, mar
 pub(crate) fn open_parts<M: Motion>(scene: &Scene, motion: &M, ends: Ends) -> Parts {
     let halving = Halving { scene, motion, halvings: 0 };
     let parts = (0..ends.start.parts().len()).collect();
-    halving.open(parts, Place::new(0.0, ends.start), Place::new(1.0, ends.end))
+    halving.open(parts, At::new(0.0, ends.start), At::new(1.0, ends.end))
 }
 
 /// Whether a motion between two free ends is free, by halving every stretch that the separation test does not prove;
@@ -29,7 +29,7 @@ pub(crate) fn open_parts<M: Motion>(scene: &Scene, motion: &M, ends: Ends) -> Pa
 /// found. `None` where `halvings` halvings do not decide.
 pub(crate) fn halve<M: Motion>(scene: &Scene, motion: &M, ends: Ends, open: &[usize], halvings: u32) -> Option<bool> {
     let mut halving = Halving { scene, motion, halvings };
-    halving.halves(Place::new(0.0, ends.start), Place::new(1.0, ends.end), open)
+    halving.halves(At::new(0.0, ends.start), At::new(1.0, ends.end), open)
 }
 
 /// Parts, by their numbers.
@@ -45,7 +45,7 @@ struct Halving<'a, M> {
 
 impl<M: Motion> Halving<'_, M> {
     /// Those of the parts that the separation test does not prove clear of everything between two places.
-    fn open(&self, mut parts: Parts, from: Place, to: Place) -> Parts {
+    fn open(&self, mut parts: Parts, from: At, to: At) -> Parts {
         parts.retain(|k| {
             let [a, b] = [from, to].map(|place| place.footprint.parts()[*k].placed());
             !self.scene.clears(a, b, self.motion.sagitta(*k, from.s, to.s))
@@ -54,14 +54,14 @@ impl<M: Motion> Halving<'_, M> {
     }
 
     /// As [`halve`], between two free places, where all parts but those in `open` are proven clear of everything.
-    fn halves(&mut self, from: Place, to: Place, open: &[usize]) -> Option<bool> {
+    fn halves(&mut self, from: At, to: At, open: &[usize]) -> Option<bool> {
         self.halvings = self.halvings.checked_sub(1)?;
         let middle = 0.5 * (from.s + to.s);
         let footprint = self.motion.footprint_at(middle);
         if self.scene.intersects(&footprint) {
             return Some(false);
         }
-        let at = Place::new(middle, &footprint);
+        let at = At::new(middle, &footprint);
         for (from, to) in [(from, at), (at, to)] {
             let open = self.open(open.into(), from, to);
             if !open.is_empty() && !self.halves(from, to, &open)? {
@@ -74,7 +74,7 @@ impl<M: Motion> Halving<'_, M> {
 
 /// The swept hull of a part whose vertices move in straight lines from one placed shape to another. The hull is never
 /// computed.
-pub(crate) struct Way<'a> {
+pub(crate) struct SweptHull<'a> {
     from: &'a Placed,
     to: &'a Placed,
     radius: f64,
@@ -83,7 +83,7 @@ pub(crate) struct Way<'a> {
     bounds: Aabb,
 }
 
-impl<'a> Way<'a> {
+impl<'a> SweptHull<'a> {
     /// The swept hull between two placed shapes of a part; `None` where one of them is not valid.
     pub(crate) fn new(from: &'a Placed, to: &'a Placed) -> Option<Self> {
         if !(from.is_valid() && to.is_valid()) {
@@ -96,13 +96,13 @@ impl<'a> Way<'a> {
             bounds.min = Point2::new(lesser(bounds.min.x, p.x), lesser(bounds.min.y, p.y));
             bounds.max = Point2::new(greater(bounds.max.x, p.x), greater(bounds.max.y, p.y));
         }
-        Some(Way { from, to, radius, size: bounds.size() + radius, bounds })
+        Some(SweptHull { from, to, radius, size: bounds.size() + radius, bounds })
     }
 
     /// A conservative separation test: true only if all pieces of the scene are valid and farther off than `reach`
     /// metres. `false` is inconclusive.
     pub(crate) fn clears(&self, scene: &Scene, reach: f64) -> bool {
-        let range = self.radius + reach + self.slack(scene.size);
+        let range = self.radius + reach + self.rounding_bound(scene.size);
         if !range.is_finite() {
             return false; // `reach` is NaN, or a piece is not valid and counts as contact everywhere
         }
@@ -117,7 +117,7 @@ impl<'a> Way<'a> {
     /// A conservative separation test for one valid piece whose coordinates are at most `size`: true only if some line
     /// separates the two by more than `reach` metres. `false` is inconclusive.
     pub(crate) fn passes(&self, piece: &Placed, reach: f64, size: f64) -> bool {
-        let reach = reach + self.radius + piece.radius() + self.slack(size);
+        let reach = reach + self.radius + piece.radius() + self.rounding_bound(size);
         let parts = |ahead: Vector2| {
             let along = |points: &[Point2]| {
                 let heights = points.iter().map(|p| p.coords.dot(&ahead));
@@ -145,7 +145,7 @@ impl<'a> Way<'a> {
 
     /// An upper bound on the rounding of all distances here, and on what a step of the march subtracts for rounding,
     /// metres.
-    fn slack(&self, size: f64) -> f64 {
+    fn rounding_bound(&self, size: f64) -> f64 {
         1e-12 * (self.size + size)
     }
 }

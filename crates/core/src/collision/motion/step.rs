@@ -1,6 +1,6 @@
 //! What one step of a march proves.
 
-use super::place::Place;
+use super::place::At;
 use crate::collision::Collision;
 use crate::geometry::largest_coordinate;
 use crate::num::{lesser, ulp};
@@ -11,7 +11,7 @@ use crate::robots::Motion;
 /// Between the two places each part stays within its sagitta of the convex hull of its two placed cores. So the
 /// distance from that hull to the obstacles, less the sagitta, is a lower bound of the clearance. Another 32 ulps are
 /// subtracted: 16 that the distance may err by, the rest for the rounding of the placed vertices.
-pub(crate) fn step_clearance<M: Motion>(collision: &dyn Collision, motion: &M, from: Place, to: Place) -> f64 {
+pub(crate) fn step_clearance<M: Motion>(collision: &dyn Collision, motion: &M, from: At, to: At) -> f64 {
     let mut least = f64::INFINITY;
     for (k, (p0, p1)) in from.footprint.parts().iter().zip(to.footprint.parts()).enumerate() {
         let hull = p0.placed().hull_with(p1.placed());

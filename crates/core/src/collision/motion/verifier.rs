@@ -1,6 +1,6 @@
 //! `verify_certificate`, which checks certificates. It knows the contracts of [`Motion`] and [`Collision`] and nothing
-//! of how a certificate is made: its hull, its bound and its rounding are its own. Only the exact orientation predicate
-//! serves both.
+//! of how a certificate is made: its hull and its rounding are its own. It trusts [`Collision::distance_of_hull`],
+//! [`Motion::sagitta`] and the exact orientation predicate, which the march uses too.
 
 use crate::collision::{Certificate, CertificateError, Collision, ProvenStep};
 use crate::geometry::{Footprint, Placed, Point2, Vertices, orientation};

@@ -5,7 +5,7 @@ use crate::num::{greater, lesser, sqrt};
 
 /// The nearest points of two shapes, or of two cores.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Nearest {
+pub(crate) struct NearestPoints {
     /// The distance, metres. Of two shapes it is exactly 0 on contact, and only then.
     pub(crate) dist: f64,
     /// The point of the first shape or core.
@@ -177,7 +177,7 @@ fn point_segment_within(p: Point2, segment: Segment, square: f64) -> Option<(f64
 
 /// The distance between two disjoint cores and a pair of nearest points, if it is less than `limit`. It is attained at
 /// a vertex of one of them.
-pub(crate) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<Nearest> {
+pub(crate) fn cores_distance(a: &[Point2], b: &[Point2], limit: f64) -> Option<NearestPoints> {
     let mut closest = Closest::new(limit, between_vertices(a, b));
     let around = box_around(b);
     for &p in a {
@@ -243,8 +243,8 @@ impl Closest {
     }
 
     /// The distance and the two points; `None` where no pair was nearer than the limit.
-    pub(crate) fn found(self) -> Option<Nearest> {
-        self.pair.map(|(on_a, on_b)| Nearest { dist: self.least, on_a, on_b })
+    pub(crate) fn found(self) -> Option<NearestPoints> {
+        self.pair.map(|(on_a, on_b)| NearestPoints { dist: self.least, on_a, on_b })
     }
 }
 

@@ -1,6 +1,8 @@
 //! The narrow phase: contact and distance between two placed shapes, closed forms for every pair.
 
-use super::convex::{Nearest, cores_contact, cores_distance, edges, point_segment, polygon_contains, segments_contact};
+use super::convex::{
+    NearestPoints, cores_contact, cores_distance, edges, point_segment, polygon_contains, segments_contact,
+};
 use super::double_double::Dd;
 use super::separating_line::{SureParting, parted_distance};
 use crate::geometry::{Placed, Point2, Segment, largest_coordinate};
@@ -11,24 +13,24 @@ use std::cmp::Ordering;
 ///
 /// A shape with a radius is its core's exact distance minus the radius. Where the rounded distance cannot tell contact
 /// from a gap, squares are compared in double-double arithmetic.
-pub(crate) fn nearest(a: &Placed, b: &Placed) -> Nearest {
+pub(crate) fn nearest(a: &Placed, b: &Placed) -> NearestPoints {
     nearest_within(a, b, f64::INFINITY).unwrap_or_else(|| {
         // reached only if a distance is NaN, which valid shapes never give
         let point = a.core()[0];
-        Nearest { dist: 0.0, on_a: point, on_b: point }
+        NearestPoints { dist: 0.0, on_a: point, on_b: point }
     })
 }
 
 /// As [`nearest`]; `None` only where the distance is greater than `limit`.
-pub(crate) fn nearest_within(a: &Placed, b: &Placed, limit: f64) -> Option<Nearest> {
+pub(crate) fn nearest_within(a: &Placed, b: &Placed, limit: f64) -> Option<NearestPoints> {
     if let Some(point) = cores_contact(a.core(), b.core()) {
-        return Some(Nearest { dist: 0.0, on_a: point, on_b: point });
+        return Some(NearestPoints { dist: 0.0, on_a: point, on_b: point });
     }
     nearest_apart(a, b, cores_distance(a.core(), b.core(), core_limit(a, b, limit))?)
 }
 
 /// As [`nearest_within`], for shapes whose cores a line certainly separates.
-pub(crate) fn nearest_across(a: &Placed, b: &Placed, limit: f64, parting: &SureParting) -> Option<Nearest> {
+pub(crate) fn nearest_across(a: &Placed, b: &Placed, limit: f64, parting: &SureParting) -> Option<NearestPoints> {
     nearest_apart(a, b, parted_distance(a.core(), b.core(), core_limit(a, b, limit), parting)?)
 }
 
@@ -38,12 +40,12 @@ fn core_limit(a: &Placed, b: &Placed, limit: f64) -> f64 {
 }
 
 /// The nearest points of two shapes whose cores are disjoint, given those of the cores.
-fn nearest_apart(a: &Placed, b: &Placed, cores: Nearest) -> Option<Nearest> {
-    let Nearest { dist: core_dist, on_a: foot_a, on_b: foot_b } = cores;
+fn nearest_apart(a: &Placed, b: &Placed, cores: NearestPoints) -> Option<NearestPoints> {
+    let NearestPoints { dist: core_dist, on_a: foot_a, on_b: foot_b } = cores;
     let reach = a.radius() + b.radius();
     let core_dist = greater(core_dist, f64::MIN_POSITIVE); // disjoint, whatever was lost to underflow
     if reach == 0.0 {
-        return Some(Nearest { dist: core_dist, on_a: foot_a, on_b: foot_b });
+        return Some(NearestPoints { dist: core_dist, on_a: foot_a, on_b: foot_b });
     }
     let direction = (foot_b - foot_a) / core_dist;
     let margin = 64.0 * ulp(largest_coordinate([a, b]));
@@ -56,7 +58,7 @@ fn nearest_apart(a: &Placed, b: &Placed, cores: Nearest) -> Option<Nearest> {
         decided_gap(a, b)
     };
     Some(match gap {
-        Some(dist) => Nearest {
+        Some(dist) => NearestPoints {
             dist: greater(dist, f64::MIN_POSITIVE),
             on_a: foot_a + direction * a.radius(),
             on_b: foot_b - direction * b.radius(),
@@ -64,7 +66,7 @@ fn nearest_apart(a: &Placed, b: &Placed, cores: Nearest) -> Option<Nearest> {
         None => {
             // within a's radius of its foot, and within b's radius of the other foot
             let point = foot_a + direction * lesser(a.radius(), core_dist);
-            Nearest { dist: 0.0, on_a: point, on_b: point }
+            NearestPoints { dist: 0.0, on_a: point, on_b: point }
         }
     })
 }

@@ -1,6 +1,6 @@
-//! `Search`, the nearest piece to a shape.
+//! `NearestSearch`, the nearest piece to a shape.
 
-use super::convex::{Nearest, plainly_overlap};
+use super::convex::{NearestPoints, plainly_overlap};
 use super::distance::nearest_across;
 use super::half_planes::Sides;
 use super::pair::pair_within;
@@ -8,21 +8,21 @@ use super::separating_line::{Parting, SureParting};
 use crate::geometry::{Aabb, Placed};
 
 /// A search under way for the piece nearest to a shape, the first in file order among equals.
-pub(crate) struct Search<'a> {
+pub(crate) struct NearestSearch<'a> {
     shape: &'a Placed,
     pieces: &'a [Placed],
     /// An upper bound on the size of the pieces' coordinates, metres. Infinite where a piece is not valid, so that no
     /// piece is passed over.
     size: f64,
     within: f64,
-    best: Option<(usize, Nearest)>,
+    best: Option<(usize, NearestPoints)>,
     sides: Option<Sides>,
 }
 
-impl<'a> Search<'a> {
+impl<'a> NearestSearch<'a> {
     /// A search for a piece nearer than `within`.
     pub(crate) fn new(shape: &'a Placed, pieces: &'a [Placed], size: f64, within: f64) -> Self {
-        Search { shape, pieces, size, within, best: None, sides: None }
+        NearestSearch { shape, pieces, size, within, best: None, sides: None }
     }
 
     /// The box around the shape, which is valid.
@@ -84,7 +84,7 @@ impl<'a> Search<'a> {
 
     /// Keeps a piece if it is the nearest so far, or as near and before it in file order. Returns the least distance so
     /// far.
-    fn take(&mut self, piece: usize, found: Option<Nearest>) -> f64 {
+    fn take(&mut self, piece: usize, found: Option<NearestPoints>) -> f64 {
         if let Some(found) = found
             && (found.dist < self.least() || self.best.is_some_and(|(p, n)| found.dist == n.dist && piece < p))
         {
@@ -94,7 +94,7 @@ impl<'a> Search<'a> {
     }
 
     /// The nearest piece and the nearest points; `None` where no piece is nearer than the limit.
-    pub(crate) fn found(self) -> Option<(usize, Nearest)> {
+    pub(crate) fn found(self) -> Option<(usize, NearestPoints)> {
         self.best
     }
 }

@@ -1,24 +1,24 @@
 //! Two placed shapes, such as a part of a footprint and a piece of a scene, also where one of them is not valid.
 
-use super::convex::Nearest;
+use super::convex::NearestPoints;
 use super::distance as narrow;
 use super::distance::{nearest, nearest_within};
 use crate::geometry::{Footprint, Placed};
 use crate::num::lesser;
 
 /// The nearest points of a part and a piece; contact when the piece is not a valid shape.
-pub(crate) fn pair(part: &Placed, piece: &Placed) -> Nearest {
+pub(crate) fn pair(part: &Placed, piece: &Placed) -> NearestPoints {
     if piece.is_valid() { nearest(part, piece) } else { contact_at(part) }
 }
 
 /// As [`pair`]; `None` only where the distance is greater than `limit`.
-pub(crate) fn pair_within(part: &Placed, piece: &Placed, limit: f64) -> Option<Nearest> {
+pub(crate) fn pair_within(part: &Placed, piece: &Placed, limit: f64) -> Option<NearestPoints> {
     if piece.is_valid() { nearest_within(part, piece, limit) } else { Some(contact_at(part)) }
 }
 
-fn contact_at(part: &Placed) -> Nearest {
+fn contact_at(part: &Placed) -> NearestPoints {
     let point = part.core()[0];
-    Nearest { dist: 0.0, on_a: point, on_b: point }
+    NearestPoints { dist: 0.0, on_a: point, on_b: point }
 }
 
 /// Whether two placed shapes touch. True when either is not valid.

@@ -1,7 +1,7 @@
 //! `Parting`, a separating line between two cores. It gives a lower bound on their distance, and shows which vertices
 //! and edges are too far apart to matter.
 
-use super::convex::{Closest, Nearest, between_vertices, cores_distance, edges};
+use super::convex::{Closest, NearestPoints, between_vertices, cores_distance, edges};
 use crate::geometry::{Point2, Segment, Vector2};
 use crate::num::{greater, lesser, sqrt};
 
@@ -78,7 +78,7 @@ const HEIGHTS: usize = 16;
 
 /// As [`cores_distance`], for cores that a line certainly separates. Vertices and edges that their heights above it
 /// prove too far apart are passed over. The result has the same bits, because none of those can be nearest.
-pub(crate) fn parted_distance(a: &[Point2], b: &[Point2], limit: f64, parting: &SureParting) -> Option<Nearest> {
+pub(crate) fn parted_distance(a: &[Point2], b: &[Point2], limit: f64, parting: &SureParting) -> Option<NearestPoints> {
     let (line, slack) = (&parting.line, parting.slack);
     if a.len() > HEIGHTS || b.len() > HEIGHTS {
         return cores_distance(a, b, limit);

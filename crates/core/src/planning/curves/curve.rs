@@ -50,13 +50,13 @@ pub struct CurvePiece {
 }
 
 /// The pieces of a curve in units of its radius.
-pub(super) type Pieces = ShortList<CurvePiece, 5>;
+pub(super) type CurvePieces = ShortList<CurvePiece, 5>;
 
 /// A curve that a car can drive: arcs of one radius and straight lines, ahead and back.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     radius: f64,
-    pieces: Pieces,
+    pieces: CurvePieces,
 }
 
 /// The length below which a piece is left out, in units of the radius.
@@ -67,7 +67,7 @@ const MISSES: f64 = 1e-9;
 
 impl Curve {
     /// The curve of these pieces in units of the radius.
-    pub(super) fn of_units(radius: f64, units: &Pieces) -> Self {
+    pub(super) fn of_units(radius: f64, units: &CurvePieces) -> Self {
         let is_some = |piece: &&CurvePiece| piece.length.abs() > NOTHING;
         let pieces = units.iter().filter(is_some).map(|p| CurvePiece { length: p.length * radius, ..*p }).collect();
         Curve { radius, pieces }
@@ -168,7 +168,7 @@ pub(super) fn goal_in_units(from: &Pose2, to: &Pose2, radius: f64) -> Option<Pos
 
 /// The shorter of the best pieces so far and a candidate, if the candidate ends at the goal. The closed forms divide by
 /// numbers that may be nearly 0; a candidate that misses for that reason is passed over.
-pub(super) fn keep_shorter(best: &mut Option<Pieces>, candidate: Pieces, goal: &Pose2) {
+pub(super) fn keep_shorter(best: &mut Option<CurvePieces>, candidate: CurvePieces, goal: &Pose2) {
     if best.as_ref().is_some_and(|best| length(best) <= length(&candidate)) {
         return;
     }

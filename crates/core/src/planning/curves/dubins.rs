@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use super::curve::{Curve, CurvePiece, Pieces, Turn, arc_cosine, goal_in_units, keep_shorter, root};
+use super::curve::{Curve, CurvePiece, CurvePieces, Turn, arc_cosine, goal_in_units, keep_shorter, root};
 use crate::geometry::Pose2;
 use crate::num::{atan2, hypot, sin_cos, wrap};
 
@@ -41,7 +41,7 @@ pub fn dubins(from: &Pose2, to: &Pose2, radius: f64) -> Option<Curve> {
 }
 
 /// The pieces of a word to a goal, in units of the radius.
-type Word = fn(&Pose2) -> Option<Pieces>;
+type Word = fn(&Pose2) -> Option<CurvePieces>;
 
 /// An angle as a turn that is driven ahead, in `[0, 2 pi)`.
 fn ahead(angle: f64) -> f64 {
@@ -50,12 +50,12 @@ fn ahead(angle: f64) -> f64 {
     if turn > TAU - WHOLE_TURN { 0.0 } else { turn }
 }
 
-fn pieces(turns: [Turn; 3], lengths: [f64; 3]) -> Pieces {
+fn pieces(turns: [Turn; 3], lengths: [f64; 3]) -> CurvePieces {
     turns.into_iter().zip(lengths).map(|(turn, length)| CurvePiece { turn, length }).collect()
 }
 
 /// Left, straight, left: the line joins the two circles' centres, in parallel.
-fn lsl(goal: &Pose2) -> Option<Pieces> {
+fn lsl(goal: &Pose2) -> Option<CurvePieces> {
     let (sin, cos) = sin_cos(goal.theta);
     let (x, y) = (goal.x - sin, goal.y - 1.0 + cos);
     let t = ahead(atan2(y, x));
@@ -63,7 +63,7 @@ fn lsl(goal: &Pose2) -> Option<Pieces> {
 }
 
 /// Left, straight, right: the line crosses between the two circles.
-fn lsr(goal: &Pose2) -> Option<Pieces> {
+fn lsr(goal: &Pose2) -> Option<CurvePieces> {
     let (sin, cos) = sin_cos(goal.theta);
     let (x, y) = (goal.x + sin, goal.y - 1.0 - cos);
     let straight = root(x * x + y * y - 4.0)?;
@@ -72,7 +72,7 @@ fn lsr(goal: &Pose2) -> Option<Pieces> {
 }
 
 /// Left, right, left: the middle circle touches both others, and more than half of it is driven.
-fn lrl(goal: &Pose2) -> Option<Pieces> {
+fn lrl(goal: &Pose2) -> Option<CurvePieces> {
     let (sin, cos) = sin_cos(goal.theta);
     let (x, y) = (goal.x - sin, goal.y - 1.0 + cos);
     let u = TAU - arc_cosine(1.0 - (x * x + y * y) / 8.0)?;

@@ -6,7 +6,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::curve::{Curve, CurvePiece, Pieces, Turn, arc_cosine, goal_in_units, keep_shorter, root};
+use super::curve::{Curve, CurvePiece, CurvePieces, Turn, arc_cosine, goal_in_units, keep_shorter, root};
 use crate::geometry::Pose2;
 use crate::num::{atan2, hypot, sin_cos, wrap};
 
@@ -31,7 +31,7 @@ pub fn reeds_shepp(from: &Pose2, to: &Pose2, radius: f64) -> Option<Curve> {
     let (sin, cos) = sin_cos(goal.theta);
     let mut best = None;
     for word in WORDS {
-        for view in View::ALL {
+        for view in WordSymmetry::ALL {
             let (x, y, phi) = if view.from_end {
                 (goal.x * cos + goal.y * sin, goal.x * sin - goal.y * cos, goal.theta)
             } else {
@@ -39,7 +39,7 @@ pub fn reeds_shepp(from: &Pose2, to: &Pose2, radius: f64) -> Option<Curve> {
             };
             let (x, phi) = if view.other_gear { (-x, -phi) } else { (x, phi) };
             let (y, phi) = if view.mirrored { (-y, -phi) } else { (y, phi) };
-            if let Some(pieces) = word(&Goal::new(x, y, phi)) {
+            if let Some(pieces) = word(&UnitGoal::new(x, y, phi)) {
                 keep_shorter(&mut best, view.seen(&pieces), &goal);
             }
         }
@@ -49,7 +49,7 @@ pub fn reeds_shepp(from: &Pose2, to: &Pose2, radius: f64) -> Option<Curve> {
 
 /// A way to look at the same problem in which its curves have other words.
 #[derive(Clone, Copy)]
-struct View {
+struct WordSymmetry {
     /// Ahead and back exchanged.
     other_gear: bool,
     /// Left and right exchanged.
@@ -58,20 +58,20 @@ struct View {
     from_end: bool,
 }
 
-impl View {
-    const ALL: [View; 8] = [
-        View { other_gear: false, mirrored: false, from_end: false },
-        View { other_gear: true, mirrored: false, from_end: false },
-        View { other_gear: false, mirrored: true, from_end: false },
-        View { other_gear: true, mirrored: true, from_end: false },
-        View { other_gear: false, mirrored: false, from_end: true },
-        View { other_gear: true, mirrored: false, from_end: true },
-        View { other_gear: false, mirrored: true, from_end: true },
-        View { other_gear: true, mirrored: true, from_end: true },
+impl WordSymmetry {
+    const ALL: [WordSymmetry; 8] = [
+        WordSymmetry { other_gear: false, mirrored: false, from_end: false },
+        WordSymmetry { other_gear: true, mirrored: false, from_end: false },
+        WordSymmetry { other_gear: false, mirrored: true, from_end: false },
+        WordSymmetry { other_gear: true, mirrored: true, from_end: false },
+        WordSymmetry { other_gear: false, mirrored: false, from_end: true },
+        WordSymmetry { other_gear: true, mirrored: false, from_end: true },
+        WordSymmetry { other_gear: false, mirrored: true, from_end: true },
+        WordSymmetry { other_gear: true, mirrored: true, from_end: true },
     ];
 
     /// The pieces found in this view, as the start sees them.
-    fn seen(self, pieces: &Pieces) -> Pieces {
+    fn seen(self, pieces: &CurvePieces) -> CurvePieces {
         let seen = |p: &CurvePiece| CurvePiece {
             turn: if self.mirrored { p.turn.mirrored() } else { p.turn },
             length: if self.other_gear { -p.length } else { p.length },
@@ -81,7 +81,7 @@ impl View {
 }
 
 /// A goal in units of the radius, as the words' formulas need it.
-struct Goal {
+struct UnitGoal {
     x: f64,
     y: f64,
     phi: f64,
@@ -89,10 +89,10 @@ struct Goal {
     cos: f64,
 }
 
-impl Goal {
+impl UnitGoal {
     fn new(x: f64, y: f64, phi: f64) -> Self {
         let (sin, cos) = sin_cos(phi);
-        Goal { x, y, phi, sin, cos }
+        UnitGoal { x, y, phi, sin, cos }
     }
 
     /// From the centre of the left circle at the start to that at the end.
@@ -107,7 +107,7 @@ impl Goal {
 }
 
 /// The pieces of a word to a goal, in units of the radius.
-type Word = fn(&Goal) -> Option<Pieces>;
+type Word = fn(&UnitGoal) -> Option<CurvePieces>;
 
 const WORDS: [Word; 8] = [
     line_between_left_circles,
@@ -124,7 +124,7 @@ const L: Turn = Turn::Left;
 const R: Turn = Turn::Right;
 const S: Turn = Turn::Straight;
 
-fn pieces<const N: usize>(turns: [Turn; N], lengths: [f64; N]) -> Option<Pieces> {
+fn pieces<const N: usize>(turns: [Turn; N], lengths: [f64; N]) -> Option<CurvePieces> {
     Some(turns.into_iter().zip(lengths).map(|(turn, length)| CurvePiece { turn, length }).collect())
 }
 
@@ -137,7 +137,7 @@ fn is_back(length: f64) -> bool {
 }
 
 /// L+ S+ L+, formula 8.1.
-fn line_between_left_circles(goal: &Goal) -> Option<Pieces> {
+fn line_between_left_circles(goal: &UnitGoal) -> Option<CurvePieces> {
     let (x, y) = goal.left_to_left();
     let t = atan2(y, x);
     let v = wrap(goal.phi - t);
@@ -145,7 +145,7 @@ fn line_between_left_circles(goal: &Goal) -> Option<Pieces> {
 }
 
 /// L+ S+ R+, formula 8.2.
-fn line_across(goal: &Goal) -> Option<Pieces> {
+fn line_across(goal: &UnitGoal) -> Option<CurvePieces> {
     let (x, y) = goal.left_to_right();
     let u = root(x * x + y * y - 4.0)?;
     let t = wrap(atan2(y, x) + atan2(2.0, u));
@@ -161,7 +161,7 @@ fn middle_arc((x, y): (f64, f64)) -> Option<(f64, f64)> {
 }
 
 /// L+ | R- | L+, formula 8.3, and L+ | R- L-, formula 8.4: the last arc may have either gear.
-fn three_arcs(goal: &Goal) -> Option<Pieces> {
+fn three_arcs(goal: &UnitGoal) -> Option<CurvePieces> {
     let (u, bearing) = middle_arc(goal.left_to_left())?;
     let t = wrap(bearing - 0.5 * u + PI);
     let v = wrap(goal.phi - t - u);
@@ -179,7 +179,7 @@ fn outer_arcs(u: f64, v: f64, (x, y): (f64, f64), phi: f64) -> (f64, f64) {
 }
 
 /// L+ R(u)+ | L(u)- R-, formula 8.7.
-fn four_arcs_gear_in_the_middle(goal: &Goal) -> Option<Pieces> {
+fn four_arcs_gear_in_the_middle(goal: &UnitGoal) -> Option<CurvePieces> {
     let (x, y) = goal.left_to_right();
     let u = arc_cosine(0.25 * (2.0 + hypot(x, y)))?;
     let (t, v) = outer_arcs(u, -u, (x, y), goal.phi);
@@ -187,7 +187,7 @@ fn four_arcs_gear_in_the_middle(goal: &Goal) -> Option<Pieces> {
 }
 
 /// L+ | R(u)- L(u)- | R+, formula 8.8.
-fn four_arcs_gear_at_both_ends(goal: &Goal) -> Option<Pieces> {
+fn four_arcs_gear_at_both_ends(goal: &UnitGoal) -> Option<CurvePieces> {
     let (x, y) = goal.left_to_right();
     let u = -arc_cosine((20.0 - x * x - y * y) / 16.0)?;
     if u < -FRAC_PI_2 - NO_TURN {
@@ -198,7 +198,7 @@ fn four_arcs_gear_at_both_ends(goal: &Goal) -> Option<Pieces> {
 }
 
 /// L+ | R(pi/2)- S- L-, formula 8.9.
-fn arcs_line_left(goal: &Goal) -> Option<Pieces> {
+fn arcs_line_left(goal: &UnitGoal) -> Option<CurvePieces> {
     let (x, y) = goal.left_to_left();
     let far = root(x * x + y * y - 4.0)?;
     let u = 2.0 - far;
@@ -208,7 +208,7 @@ fn arcs_line_left(goal: &Goal) -> Option<Pieces> {
 }
 
 /// L+ | R(pi/2)- S- R-, formula 8.10.
-fn arcs_line_right(goal: &Goal) -> Option<Pieces> {
+fn arcs_line_right(goal: &UnitGoal) -> Option<CurvePieces> {
     let (x, y) = goal.left_to_right();
     let u = 2.0 - hypot(x, y);
     let t = atan2(x, -y);
@@ -217,7 +217,7 @@ fn arcs_line_right(goal: &Goal) -> Option<Pieces> {
 }
 
 /// L+ | R(pi/2)- S- L(pi/2)- | R+, formula 8.11.
-fn two_arcs_line_two_arcs(goal: &Goal) -> Option<Pieces> {
+fn two_arcs_line_two_arcs(goal: &UnitGoal) -> Option<CurvePieces> {
     let (x, y) = goal.left_to_right();
     let u = 4.0 - root(x * x + y * y - 4.0)?;
     let t = wrap(atan2((4.0 - u) * x - 2.0 * y, -2.0 * x + (u - 4.0) * y));

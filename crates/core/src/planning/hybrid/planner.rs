@@ -30,11 +30,11 @@ pub struct HybridAStar {
     keep: f64,
     remaining: Remaining,
     /// How each node was reached; `None` for the start.
-    reached: Vec<Reached>,
+    reached: Vec<Arrival>,
     open: BinaryHeap<Reverse<(u64, usize)>>,
     /// The least cost at which each cell was reached.
-    cells: BTreeMap<Cell, f64>,
-    closed: BTreeMap<Cell, usize>,
+    cells: BTreeMap<StateCell, f64>,
+    closed: BTreeMap<StateCell, usize>,
 }
 
 /// The problem with the region of the settings about its goal.
@@ -45,14 +45,14 @@ fn near_its_goal(problem: Problem<Hitch>, settings: &HybridSettings) -> Problem<
 
 /// How a node was reached.
 #[derive(Clone, Copy, Debug)]
-struct Reached {
+struct Arrival {
     by: Option<CarMove>,
     cost: f64,
-    cell: Cell,
+    cell: StateCell,
 }
 
 /// A cell of the space: place, headings, and whether the car went back.
-type Cell = ([i32; 4], bool);
+type StateCell = ([i32; 4], bool);
 
 impl HybridAStar {
     /// The planner with its usual settings.
@@ -79,7 +79,7 @@ impl HybridAStar {
         planner.search.growth.add_root(start);
         let cell = planner.cell(&start, false);
         planner.cells.insert(cell, 0.0);
-        planner.reached.push(Reached { by: None, cost: 0.0, cell });
+        planner.reached.push(Arrival { by: None, cost: 0.0, cell });
         planner.push(0);
         planner
     }
@@ -102,7 +102,7 @@ impl HybridAStar {
         self.search.problem.checker().robot()
     }
 
-    fn cell(&self, q: &HitchCfg, back: bool) -> Cell {
+    fn cell(&self, q: &HitchCfg, back: bool) -> StateCell {
         let part = |x: f64, size: f64| (x / size).floor() as i32;
         let turn = TAU / f64::from(self.settings.headings.max(1));
         let of_circle =
@@ -137,8 +137,8 @@ impl HybridAStar {
     }
 
     /// Adds the end of a move that is proven free.
-    fn add(&mut self, parent: usize, m: CarMove, end: HitchCfg, cost: f64, cell: Cell) -> usize {
-        self.reached.push(Reached { by: Some(m), cost, cell });
+    fn add(&mut self, parent: usize, m: CarMove, end: HitchCfg, cost: f64, cell: StateCell) -> usize {
+        self.reached.push(Arrival { by: Some(m), cost, cell });
         self.search.growth.add(end, parent)
     }
 

@@ -13,7 +13,7 @@ use crate::robots::Hitch;
 const CELL: f64 = 0.25;
 
 /// The greatest number of cells to a side.
-const MOST: f64 = 400.0;
+const MAX_CELLS_A_SIDE: f64 = 400.0;
 
 /// An estimate of the way that remains to a goal: the longer of Reeds and Shepp's curve among no obstacles, and the way
 /// of a disc about the rear axle among the obstacles, on a grid.
@@ -32,8 +32,8 @@ impl Remaining {
     pub(super) fn new(checker: &Checker<Hitch>, goal: &Pose2) -> Self {
         let (car, scene) = (checker.robot(), checker.scene());
         let (min, max) = (scene.bounds().min, scene.bounds().max);
-        let cell = greater(CELL, greater(max.x - min.x, max.y - min.y) / MOST);
-        let side = |length: f64| lesser((length / cell).ceil() + 1.0, MOST + 2.0) as usize;
+        let cell = greater(CELL, greater(max.x - min.x, max.y - min.y) / MAX_CELLS_A_SIDE);
+        let side = |length: f64| lesser((length / cell).ceil() + 1.0, MAX_CELLS_A_SIDE + 2.0) as usize;
         let (columns, rows) = (side(max.x - min.x), side(max.y - min.y));
         // the greatest disc about the rear axle within the chassis
         let body = car.body;

@@ -8,7 +8,7 @@ use crate::planning::curves::reeds_shepp;
 use crate::robots::{CHANNEL_UNITS, Hitch, Motion, TICK};
 
 /// The greatest number of moves of a shot that follows a line.
-const MOST: usize = 100;
+const MAX_MOVES: usize = 100;
 
 /// The number of ticks between two changes of the steering.
 const HELD: u32 = 2;
@@ -69,11 +69,11 @@ fn backward_onto_line(car: &Hitch, q: &HitchCfg, goal: &HitchCfg, settings: &Hyb
     let most = lesser(HELD_FOLD * hitch_len * car.curvature(car.max_steer), settings.most_fold);
     let a_move = car.max_speed * TICK * f64::from(HELD);
     let (mut end, mut moves) = (*q, Vec::new());
-    while moves.len() < MOST {
+    while moves.len() < MAX_MOVES {
         let left = ahead(&end);
         let psi = end.trailer?;
         let hitch = wrap(end.body.theta - psi);
-        if hitch.abs() > settings.most_fold || left > a_move * MOST as f64 {
+        if hitch.abs() > settings.most_fold || left > a_move * MAX_MOVES as f64 {
             return None;
         }
         if left <= 0.0 {

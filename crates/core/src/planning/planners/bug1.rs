@@ -11,7 +11,7 @@ const SETTLE: u64 = 16;
 
 /// What the next iteration does.
 #[derive(Clone, Debug)]
-enum Phase {
+enum Bug1Phase {
     /// Goes straight to the goal.
     Head,
     /// Comes to the clearance that it keeps from the boundary.
@@ -35,7 +35,7 @@ enum Phase {
 #[derive(Clone, Debug)]
 pub struct Bug1<R: Robot> {
     walker: Walker<R>,
-    phase: Phase,
+    phase: Bug1Phase,
 }
 
 impl<R: Robot<Configuration: Chart>> Bug1<R> {
@@ -45,53 +45,56 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
     /// [`NoPath::Unsuited`] for a robot that is not a disc.
     pub fn try_new(problem: &Problem<R>) -> Result<Self, NoPath> {
         let walker = Walker::try_new(problem).ok_or(NoPath::Unsuited("Bug1 is for robots that are discs"))?;
-        Ok(Bug1 { walker, phase: Phase::Head })
+        Ok(Bug1 { walker, phase: Bug1Phase::Head })
     }
 
     /// Takes a step; the reason is why there will be no path.
     fn walk(&mut self) -> Option<NoPath> {
-        match std::mem::replace(&mut self.phase, Phase::Head) {
-            Phase::Leave => match self.walker.leave() {
+        match std::mem::replace(&mut self.phase, Bug1Phase::Head) {
+            Bug1Phase::Leave => match self.walker.leave() {
                 Headed::Moved => {
-                    self.phase = if self.walker.is_clear() { Phase::Head } else { Phase::Leave };
+                    self.phase = if self.walker.is_clear() { Bug1Phase::Head } else { Bug1Phase::Leave };
                     None
                 }
                 Headed::Arrived => self.walker.arrived(),
                 Headed::Blocked => Some(NoPath::Enclosed { kept: self.walker.keep }),
             },
-            Phase::Head => match self.walker.head() {
+            Bug1Phase::Head => match self.walker.head() {
                 Headed::Moved => None,
                 Headed::Arrived => self.walker.arrived(),
                 Headed::Blocked => {
-                    self.phase = Phase::Settle { steps: 0 };
+                    self.phase = Bug1Phase::Settle { steps: 0 };
                     None
                 }
             },
-            Phase::Settle { steps } => {
+            Bug1Phase::Settle { steps } => {
                 let node = self.walker.node();
-                self.phase =
-                    if steps < SETTLE { Phase::Settle { steps: steps + 1 } } else { Phase::Round { from: node } };
+                self.phase = if steps < SETTLE {
+                    Bug1Phase::Settle { steps: steps + 1 }
+                } else {
+                    Bug1Phase::Round { from: node }
+                };
                 self.follow()
             }
-            Phase::Round { from } => {
+            Bug1Phase::Round { from } => {
                 let node = self.walker.node();
                 let is_back = node > from + SETTLE as usize
                     && apart(self.walker.place(node), self.walker.place(from)) < self.walker.stride();
                 if is_back {
-                    self.phase = Phase::Return { nodes: self.way_back(from, node) };
+                    self.phase = Bug1Phase::Return { nodes: self.way_back(from, node) };
                     return None;
                 }
-                self.phase = Phase::Round { from };
+                self.phase = Bug1Phase::Round { from };
                 self.follow()
             }
-            Phase::Return { mut nodes } => match nodes.pop() {
+            Bug1Phase::Return { mut nodes } => match nodes.pop() {
                 None => {
-                    self.phase = Phase::Leave;
+                    self.phase = Bug1Phase::Leave;
                     None
                 }
                 Some(next) => {
                     let to = self.walker.search.at(next);
-                    self.phase = Phase::Return { nodes };
+                    self.phase = Bug1Phase::Return { nodes };
                     if self.walker.go(to) { None } else { Some(self.walker.stuck()) }
                 }
             },

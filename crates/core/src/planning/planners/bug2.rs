@@ -9,7 +9,7 @@ use crate::robots::Robot;
 
 /// What the next iteration does.
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum Bug2Phase {
     /// Goes along the line from the start to the goal.
     Head,
     /// Follows the boundary that it hit, which is at the right hand.
@@ -32,7 +32,7 @@ enum Phase {
 pub struct Bug2<R: Robot> {
     walker: Walker<R>,
     start: Point2,
-    phase: Phase,
+    phase: Bug2Phase,
 }
 
 /// The number of steps along a boundary before coming back counts.
@@ -46,21 +46,21 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
     pub fn try_new(problem: &Problem<R>) -> Result<Self, NoPath> {
         let walker = Walker::try_new(problem).ok_or(NoPath::Unsuited("Bug2 is for robots that are discs"))?;
         let start = walker.here();
-        Ok(Bug2 { walker, start, phase: Phase::Head })
+        Ok(Bug2 { walker, start, phase: Bug2Phase::Head })
     }
 
     /// Takes a step; the reason is why there will be no path.
     fn walk(&mut self) -> Option<NoPath> {
         match self.phase {
-            Phase::Head => match self.walker.head() {
+            Bug2Phase::Head => match self.walker.head() {
                 Headed::Moved => None,
                 Headed::Arrived => self.walker.arrived(),
                 Headed::Blocked => {
-                    self.phase = Phase::Follow { hit: self.walker.here(), steps: 0 };
+                    self.phase = Bug2Phase::Follow { hit: self.walker.here(), steps: 0 };
                     None
                 }
             },
-            Phase::Follow { hit, steps } => {
+            Bug2Phase::Follow { hit, steps } => {
                 if self.walker.arrive() {
                     return self.walker.arrived();
                 }
@@ -68,12 +68,12 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
                 if !self.walker.follow() {
                     return Some(self.walker.stuck());
                 }
-                self.phase = Phase::Follow { hit, steps: steps + 1 };
+                self.phase = Bug2Phase::Follow { hit, steps: steps + 1 };
                 let here = self.walker.here();
                 if self.meets_line(before, here)
                     && apart(here, self.walker.goal()) < apart(hit, self.walker.goal()) - self.walker.keep
                 {
-                    self.phase = Phase::Head;
+                    self.phase = Bug2Phase::Head;
                 } else if steps > AWAY && apart(here, hit) < 1.5 * self.walker.stride() {
                     let nodes = self.walker.search.growth.nodes().len();
                     return Some(NoPath::NoneInGraph { nodes });

@@ -41,7 +41,7 @@ impl CellDecomposition {
     fn refine(&mut self) -> Option<NoPath> {
         let map = self.map.as_mut()?;
         let is_done = !map.refine(CELLS);
-        let raster = Raster::of(map);
+        let raster = CellStates::of(map);
         let [start, goal] =
             [self.search.problem.start(), self.search.problem.goal()].map(|q| raster.cell(map.slice().point(&q)));
         if let Some(cells) = raster.way(start, goal, |state| state == CellState::Free) {
@@ -69,7 +69,7 @@ impl CellDecomposition {
 }
 
 /// The states of the finest cells, row after row.
-struct Raster {
+struct CellStates {
     states: Vec<CellState>,
     side: usize,
     min: [f64; 2],
@@ -78,11 +78,11 @@ struct Raster {
     wraps: bool,
 }
 
-impl Raster {
+impl CellStates {
     fn of(map: &CellMap) -> Self {
         let (min, max, side) = (map.slice().min(), map.slice().max(), 1 << map.finest());
         let steps = [0, 1].map(|i| (max[i] - min[i]) / side as f64);
-        Raster { states: map.raster(map.finest()), side, min, steps, wraps: map.slice().wraps() }
+        CellStates { states: map.raster(map.finest()), side, min, steps, wraps: map.slice().wraps() }
     }
 
     /// Whether a point lies in the slice; on a torus every point does.

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use super::frontier::Frontier;
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
-use crate::planning::{Metric, NoPath, Planner, Search, Settings};
+use crate::planning::{Metric, NoPath, Planner, SamplingSettings, Search};
 use crate::robots::Robot;
 use crate::short_list::ShortList;
 
@@ -14,11 +14,11 @@ use crate::short_list::ShortList;
 const FINER: f64 = 4.0;
 
 /// A place on the grid: the number of steps from the start along each coordinate, angles from 0 to a turn.
-type Place = ShortList<i32, 4>;
+type GridIndex = ShortList<i32, 4>;
 
 /// Along a coordinate of the grid.
 #[derive(Clone, Copy, Debug)]
-struct Axis {
+struct GridAxis {
     /// The length of a step, metres or radians.
     step: f64,
     /// The number of steps of a whole turn; `None` for a length.
@@ -40,11 +40,11 @@ pub struct GridSearch<R: Robot> {
     search: Search<R>,
     metric: Metric,
     has_heuristic: bool,
-    axes: ShortList<Axis, 4>,
+    axes: ShortList<GridAxis, 4>,
     /// The nodes of the places reached.
     nodes: BTreeMap<[i32; 4], usize>,
     /// The place of each node; `None` for the goal beside the grid.
-    places: Vec<Option<Place>>,
+    places: Vec<Option<GridIndex>>,
     /// The node of the goal beside the grid.
     goal: Option<usize>,
     frontier: Frontier,
@@ -53,13 +53,13 @@ pub struct GridSearch<R: Robot> {
 impl<R: Robot<Configuration: Chart>> GridSearch<R> {
     /// A* on the usual grid.
     pub fn a_star(problem: Problem<R>) -> Self {
-        let step = Settings::of(&problem).step / FINER;
+        let step = SamplingSettings::of(&problem).step / FINER;
         Self::of(problem, step, true)
     }
 
     /// Dijkstra's algorithm on the usual grid.
     pub fn dijkstra(problem: Problem<R>) -> Self {
-        let step = Settings::of(&problem).step / FINER;
+        let step = SamplingSettings::of(&problem).step / FINER;
         Self::of(problem, step, false)
     }
 
@@ -72,13 +72,13 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
         let axis = |i: usize| {
             if start.is_angle(i) {
                 let turn = (TAU / step).ceil().clamp(1.0, 1e6);
-                return Axis { step: TAU / turn, turn: Some(turn as i32), range: [0.0; 2] };
+                return GridAxis { step: TAU / turn, turn: Some(turn as i32), range: [0.0; 2] };
             }
             let range = if i == 0 { [bounds.min.x, bounds.max.x] } else { [bounds.min.y, bounds.max.y] };
-            Axis { step, turn: None, range }
+            GridAxis { step, turn: None, range }
         };
         let dimensions = start.coordinates().len();
-        let axes: ShortList<Axis, 4> = (0..dimensions).map(axis).collect();
+        let axes: ShortList<GridAxis, 4> = (0..dimensions).map(axis).collect();
         let fits = dimensions <= 4 && step > 0.0 && step.is_finite();
         let reason = "a grid has at most four coordinates and a step above 0";
         let mut search = Search::new(problem);
@@ -100,7 +100,7 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
         planner
     }
 
-    fn enlist(&mut self, node: usize, place: Option<Place>, cost: f64) {
+    fn enlist(&mut self, node: usize, place: Option<GridIndex>, cost: f64) {
         match &place {
             Some(place) => _ = self.nodes.insert(key(place), node),
             None => self.goal = Some(node),
@@ -115,18 +115,18 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
     }
 
     /// The configuration at a place; `None` outside the scene's bounds.
-    fn at(&self, place: &Place) -> Option<R::Configuration> {
+    fn at(&self, place: &GridIndex) -> Option<R::Configuration> {
         let tangent: Coordinates = self.axes.iter().zip(place).map(|(axis, k)| axis.step * f64::from(*k)).collect();
         let q = self.search.problem.start().in_chart().exp(&tangent)?;
-        let holds = |(axis, c): (&Axis, &f64)| axis.turn.is_some() || (*c >= axis.range[0] && *c <= axis.range[1]);
+        let holds = |(axis, c): (&GridAxis, &f64)| axis.turn.is_some() || (*c >= axis.range[0] && *c <= axis.range[1]);
         self.axes.iter().zip(&q.coordinates()).all(holds).then_some(q)
     }
 
     /// The places beside a place, diagonals too.
-    fn beside(&self, place: &Place) -> Vec<Place> {
+    fn beside(&self, place: &GridIndex) -> Vec<GridIndex> {
         let count = 3_usize.pow(place.len() as u32);
-        let neighbour = |mut number: usize| -> Place {
-            let along = |(k, axis): (&i32, &Axis)| {
+        let neighbour = |mut number: usize| -> GridIndex {
+            let along = |(k, axis): (&i32, &GridAxis)| {
                 let moved = k + (number % 3) as i32 - 1;
                 number /= 3;
                 axis.turn.map_or(moved, |turn| moved.rem_euclid(turn))
@@ -137,7 +137,7 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
     }
 
     /// Reaches a place from a node, or the goal where there is no place, if that is a shorter way and free.
-    fn relax(&mut self, from: usize, place: Option<Place>, q: R::Configuration, known: Option<usize>) {
+    fn relax(&mut self, from: usize, place: Option<GridIndex>, q: R::Configuration, known: Option<usize>) {
         let cost = self.frontier.cost(from) + self.metric.distance(&self.search.at(from), &q);
         if !self.frontier.is_of_use(known, cost) || !self.search.ask(&self.search.at(from), &q) {
             return;
@@ -172,7 +172,7 @@ impl<R: Robot<Configuration: Chart>> GridSearch<R> {
 }
 
 /// A place as a key of a map.
-fn key(place: &Place) -> [i32; 4] {
+fn key(place: &GridIndex) -> [i32; 4] {
     let mut key = [0; 4];
     for (k, at) in key.iter_mut().zip(place) {
         *k = *at;

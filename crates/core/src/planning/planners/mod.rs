@@ -17,7 +17,7 @@ pub use bug1::Bug1;
 pub use bug2::Bug2;
 pub use cell_decomposition::CellDecomposition;
 pub use grid_search::GridSearch;
-pub use potential_field::{Field, PotentialField};
+pub use potential_field::{FieldSettings, PotentialField};
 pub use prm::Prm;
 pub use rrt::Rrt;
 pub use rrt_connect::RrtConnect;

@@ -3,7 +3,7 @@
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
 use crate::num::{lesser, sqrt};
-use crate::planning::{Metric, NoPath, Planner, Search, Settings};
+use crate::planning::{Metric, NoPath, Planner, SamplingSettings, Search};
 use crate::robots::Robot;
 
 /// How often a step is halved before the place counts as a local minimum.
@@ -14,7 +14,7 @@ const SHARE: f64 = 1e-3;
 
 /// The numbers of a potential field.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Field {
+pub struct FieldSettings {
     /// The factor of the attraction.
     pub attraction: f64,
     /// The distance to the goal beyond which the attraction is constant, by the metric.
@@ -35,7 +35,7 @@ pub struct Field {
 #[derive(Clone, Debug)]
 pub struct PotentialField<R: Robot> {
     search: Search<R>,
-    field: Field,
+    field: FieldSettings,
     step: f64,
     metric: Metric,
 }
@@ -49,19 +49,19 @@ struct Slope {
 impl<R: Robot<Configuration: Chart>> PotentialField<R> {
     /// The planner in the usual field: obstacles repel within a twentieth of the space's radius.
     pub fn new(problem: Problem<R>) -> Self {
-        let step = Settings::of(&problem).step;
-        Self::in_field(problem, Field { attraction: 1.0, far: step, repulsion: 1e-3, reach: 0.25 * step })
+        let step = SamplingSettings::of(&problem).step;
+        Self::in_field(problem, FieldSettings { attraction: 1.0, far: step, repulsion: 1e-3, reach: 0.25 * step })
     }
 
     /// The planner in this field.
-    pub fn in_field(problem: Problem<R>, field: Field) -> Self {
-        let Settings { metric, step, .. } = Settings::of(&problem);
+    pub fn in_field(problem: Problem<R>, field: FieldSettings) -> Self {
+        let SamplingSettings { metric, step, .. } = SamplingSettings::of(&problem);
         PotentialField { search: Search::from_start(problem), field, step: 0.25 * step, metric }
     }
 
     /// The potential at `q` and its gradient; `None` where the robot has no Jacobian.
     fn slope(&self, q: &R::Configuration) -> Option<Slope> {
-        let Field { attraction, far, repulsion, reach } = self.field;
+        let FieldSettings { attraction, far, repulsion, reach } = self.field;
         let (away, distance) =
             (self.search.problem.goal().log(q).ok()?, self.metric.distance(q, &self.search.problem.goal()));
         let is_near = distance <= far;

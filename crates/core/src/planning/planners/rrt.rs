@@ -2,7 +2,7 @@
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
-use crate::planning::{Nearest, Planner, Search, Settings, sample_toward_goal};
+use crate::planning::{Nearest, Planner, SamplingSettings, Search, sample_toward_goal};
 use crate::robots::Robot;
 
 /// A rapidly-exploring random tree (LaValle, 1998): the node nearest to a sample takes a step toward it. Some samples
@@ -12,19 +12,19 @@ use crate::robots::Robot;
 #[derive(Clone, Debug)]
 pub struct Rrt<R: Robot> {
     search: Search<R>,
-    settings: Settings,
+    settings: SamplingSettings,
     tree: Nearest,
 }
 
 impl<R: Robot<Configuration: Chart>> Rrt<R> {
     /// The planner with its usual settings.
     pub fn new(problem: Problem<R>) -> Self {
-        let settings = Settings::of(&problem);
+        let settings = SamplingSettings::of(&problem);
         Self::with_settings(problem, settings)
     }
 
     /// The planner with these settings.
-    pub fn with_settings(problem: Problem<R>, settings: Settings) -> Self {
+    pub fn with_settings(problem: Problem<R>, settings: SamplingSettings) -> Self {
         let (search, mut tree) = (Search::from_start(problem), Nearest::new(settings.metric.clone()));
         tree.add(&search.at(0), 0);
         Rrt { search, settings, tree }

@@ -2,12 +2,12 @@
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
-use crate::planning::{Nearest, Planner, Search, Settings};
+use crate::planning::{Nearest, Planner, SamplingSettings, Search};
 use crate::robots::Robot;
 
 /// What the next iteration does.
 #[derive(Clone, Copy, Debug)]
-enum Phase {
+enum ConnectPhase {
     /// Draws a sample and extends the tree toward it.
     Extend,
     /// Grows the other tree toward this node, from its node nearest to it or from the node it reached last.
@@ -22,22 +22,22 @@ enum Phase {
 #[derive(Clone, Debug)]
 pub struct RrtConnect<R: Robot> {
     search: Search<R>,
-    settings: Settings,
+    settings: SamplingSettings,
     trees: [Nearest; 2],
     /// The tree that extends: 0 is the start's.
     extending: usize,
-    phase: Phase,
+    phase: ConnectPhase,
 }
 
 impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
     /// The planner with its usual settings.
     pub fn new(problem: Problem<R>) -> Self {
-        let settings = Settings::of(&problem);
+        let settings = SamplingSettings::of(&problem);
         Self::with_settings(problem, settings)
     }
 
     /// The planner with these settings.
-    pub fn with_settings(problem: Problem<R>, settings: Settings) -> Self {
+    pub fn with_settings(problem: Problem<R>, settings: SamplingSettings) -> Self {
         let ends = [problem.start(), problem.goal()];
         let mut search = Search::new(problem);
         let trees = ends.map(|root| {
@@ -46,7 +46,7 @@ impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
             tree
         });
         // the first thing to try is the straight line
-        let phase = Phase::Connect { to: 1, from: None };
+        let phase = ConnectPhase::Connect { to: 1, from: None };
         RrtConnect { search, settings, trees, extending: 1, phase }
     }
 
@@ -69,7 +69,7 @@ impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
         self.search.growth.count_sample();
         let near = self.trees[self.extending].nearest(&sample).map(|near| near.number);
         match near.and_then(|near| self.grow(self.extending, near, &sample, false)) {
-            Some(to) => self.phase = Phase::Connect { to, from: None },
+            Some(to) => self.phase = ConnectPhase::Connect { to, from: None },
             None => self.extending = 1 - self.extending,
         }
     }
@@ -86,14 +86,14 @@ impl<R: Robot<Configuration: Chart>> RrtConnect<R> {
         }
         let is_step = self.settings.metric.distance(&self.search.at(from), &target) <= self.settings.step;
         match if is_step { None } else { self.grow(other, from, &target, false) } {
-            Some(next) => self.phase = Phase::Connect { to, from: Some(next) },
+            Some(next) => self.phase = ConnectPhase::Connect { to, from: Some(next) },
             None => self.swap(),
         }
     }
 
     fn swap(&mut self) {
         self.extending = 1 - self.extending;
-        self.phase = Phase::Extend;
+        self.phase = ConnectPhase::Extend;
     }
 
     /// The nodes of the path through two nodes at the same place, one in each tree.
@@ -120,8 +120,8 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for RrtConnect<R> {
 
     fn advance(&mut self) {
         match self.phase {
-            Phase::Extend => self.extend(),
-            Phase::Connect { to, from } => self.connect(to, from),
+            ConnectPhase::Extend => self.extend(),
+            ConnectPhase::Connect { to, from } => self.connect(to, from),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::E;
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
 use crate::num::ln;
-use crate::planning::{Nearest, Planner, Progress, Search, Settings, sample_toward_goal};
+use crate::planning::{Nearest, Planner, Progress, SamplingSettings, Search, sample_toward_goal};
 use crate::robots::Robot;
 
 /// RRT* (Karaman and Frazzoli, 2011), with the k nearest: a new node is reached from that neighbour from which it is
@@ -17,7 +17,7 @@ use crate::robots::Robot;
 #[derive(Clone, Debug)]
 pub struct RrtStar<R: Robot> {
     search: Search<R>,
-    settings: Settings,
+    settings: SamplingSettings,
     tree: Nearest,
     /// The length of each node's way from the start.
     costs: Vec<f64>,
@@ -31,12 +31,12 @@ pub struct RrtStar<R: Robot> {
 impl<R: Robot<Configuration: Chart>> RrtStar<R> {
     /// The planner with its usual settings.
     pub fn new(problem: Problem<R>) -> Self {
-        let settings = Settings::of(&problem);
+        let settings = SamplingSettings::of(&problem);
         Self::with_settings(problem, settings)
     }
 
     /// The planner with these settings.
-    pub fn with_settings(problem: Problem<R>, settings: Settings) -> Self {
+    pub fn with_settings(problem: Problem<R>, settings: SamplingSettings) -> Self {
         let tree = Nearest::new(settings.metric.clone());
         let search = Search::from_start(problem);
         let (start, costs, children, ends) = (search.at(0), Vec::new(), Vec::new(), Vec::new());

@@ -7,7 +7,7 @@ use super::items::{Budget, make_bounds, make_door, make_mark, make_place, make_s
 use super::name::check_name;
 use super::resident::make_resident;
 use super::route::{Radii, make_route, routed};
-use super::source::{Part, Source};
+use super::source::{FilePart, FileText};
 use crate::worlds::{MAX_ITEMS, World, WorldError, WorldItem, WorldProblem};
 
 impl World {
@@ -31,12 +31,12 @@ impl World {
     /// assert!(error.to_string().starts_with("yard.ron:2:13: obstacles[0] \"the tree\": radius 0 m"));
     /// ```
     pub fn parse(source_name: &str, text: &str) -> Result<World, WorldError> {
-        let source = Source { file: source_name, text };
+        let source = FileText { file: source_name, text };
         let file = source.read()?;
-        check_name(&file.name).map_err(|problem| source.error(Part::Name, problem))?;
-        let bounds = make_bounds(&file.bounds).map_err(|problem| source.error(Part::Bounds, problem))?;
+        check_name(&file.name).map_err(|problem| source.error(FilePart::Name, problem))?;
+        let bounds = make_bounds(&file.bounds).map_err(|problem| source.error(FilePart::Bounds, problem))?;
 
-        let mut names = Names { source, taken: BTreeMap::new() };
+        let mut names = TakenNames { source, taken: BTreeMap::new() };
         names.claim("walls", &file.walls)?;
         names.claim("obstacles", &file.obstacles)?;
         names.claim("doors", &file.doors)?;
@@ -66,7 +66,7 @@ impl World {
     }
 }
 
-impl Source<'_> {
+impl FileText<'_> {
     /// Converts every item of a list.
     fn convert<T: Named, U>(
         &self,
@@ -77,7 +77,7 @@ impl Source<'_> {
         let convert = |(index, item): (usize, &T)| {
             make(item).map_err(|problem| {
                 let item = WorldItem { list, index, name: item.name().to_owned() };
-                self.error(Part::Item(&item), problem)
+                self.error(FilePart::Item(&item), problem)
             })
         };
         items.iter().enumerate().map(convert).collect()
@@ -85,17 +85,17 @@ impl Source<'_> {
 }
 
 /// The names taken so far in all lists, each with the list and index of its item.
-struct Names<'a> {
-    source: Source<'a>,
+struct TakenNames<'a> {
+    source: FileText<'a>,
     taken: BTreeMap<&'a str, (&'static str, usize)>,
 }
 
-impl<'a> Names<'a> {
+impl<'a> TakenNames<'a> {
     fn claim<T: Named>(&mut self, list: &'static str, items: &'a [T]) -> Result<(), WorldError> {
         for (index, name) in items.iter().map(Named::name).enumerate() {
             let refuse = |problem| {
                 let item = WorldItem { list, index, name: name.to_owned() };
-                Err(self.source.error(Part::Item(&item), problem))
+                Err(self.source.error(FilePart::Item(&item), problem))
             };
             if index == MAX_ITEMS {
                 return refuse(WorldProblem::TooMany { what: list });

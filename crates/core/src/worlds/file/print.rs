@@ -7,7 +7,7 @@ use xxhash_rust::xxh3::xxh3_128;
 
 use super::sizes::sizes_text;
 use crate::geometry::{Point2, Pose2, Shape};
-use crate::worlds::{BeamModel, Obstacle, ObstacleKind, ResidentSensor, WORLD_VERSION, World, Written};
+use crate::worlds::{BeamModel, Obstacle, ObstacleKind, ResidentSensor, SourceShape, WORLD_VERSION, World};
 
 impl World {
     /// Prints the world as a world file: one item a line, every number with the shortest digits that read back as the
@@ -31,30 +31,31 @@ impl World {
     }
 
     fn write_ron(&self, out: &mut String) -> fmt::Result {
-        let (min, max) = (Xy(self.bounds.min), Xy(self.bounds.max));
+        let (min, max) = (PrintedXy(self.bounds.min), PrintedXy(self.bounds.max));
         writeln!(out, "World(\n    version: {WORLD_VERSION},\n    name: {},", Quoted(&self.name))?;
         writeln!(out, "    bounds: (min: {min}, max: {max}),")?;
         let (mut walls, mut solids) = (Vec::new(), Vec::new());
         for obstacle in &self.obstacles {
             let name = Quoted(&obstacle.name);
             match chain(obstacle) {
-                Some(points) => walls.push(format!("name: {name}, points: {}", Points(&points))),
+                Some(points) => walls.push(format!("name: {name}, points: {}", PrintedPoints(&points))),
                 None => solids.push(format!("name: {name}, shape: {}", shape_text(obstacle))),
             }
         }
         let doors = self.doors.iter().map(|d| {
-            let (name, hinge, end) = (Quoted(&d.name), Xy(d.a), Xy(d.b));
+            let (name, hinge, end) = (Quoted(&d.name), PrintedXy(d.a), PrintedXy(d.b));
             format!("name: {name}, hinge: {hinge}, end: {end}, open: {}", d.open)
         });
         let routes = self.routes.iter().map(|r| {
-            let (name, points) = (Quoted(&r.name), Points(&r.points));
+            let (name, points) = (Quoted(&r.name), PrintedPoints(&r.points));
             format!("name: {name}, points: {points}, radius: {:?}, speed: {:?}", r.radius, r.speed)
         });
         let places = self.places.iter().map(|p| {
             let Pose2 { x, y, theta } = p.pose;
             format!("name: {}, pose: (x: {x:?}, y: {y:?}, theta: {theta:?})", Quoted(&p.name))
         });
-        let marks = self.marks.iter().map(|m| format!("name: {}, points: {}", Quoted(&m.name), Points(&m.points)));
+        let marks =
+            self.marks.iter().map(|m| format!("name: {}, points: {}", Quoted(&m.name), PrintedPoints(&m.points)));
         let robots = self.robots.iter().map(|r| {
             let head = format!("name: {}, kind: {}, start: {:?}", Quoted(&r.name), Quoted(&r.kind), r.start);
             let noise = r.sensor.map_or(String::new(), |noise| format!(", sensor: {}", noise_text(&noise)));
@@ -131,9 +132,9 @@ fn chain(obstacle: &Obstacle) -> Option<Vec<Point2>> {
 }
 
 fn shape_text(obstacle: &Obstacle) -> String {
-    let text = |written: &Written<'_>| match written {
-        Written::Outline(points) => format!("Polygon({})", Points(points)),
-        Written::Piece((pose, shape)) => piece_text(pose, shape),
+    let text = |written: &SourceShape<'_>| match written {
+        SourceShape::Outline(points) => format!("Polygon({})", PrintedPoints(points)),
+        SourceShape::Piece((pose, shape)) => piece_text(pose, shape),
     };
     match &obstacle.written()[..] {
         [one] => text(one),
@@ -144,32 +145,34 @@ fn shape_text(obstacle: &Obstacle) -> String {
 fn piece_text(pose: &Pose2, shape: &Shape) -> String {
     let at_origin = *pose == Pose2::IDENTITY;
     match shape {
-        Shape::Disc { radius } => format!("Disc(center: {}, radius: {radius:?})", Xy(pose.position())),
-        Shape::Rectangle { min, max } if at_origin => format!("Box(min: {}, max: {})", Xy(*min), Xy(*max)),
-        Shape::Polygon(polygon) if at_origin => format!("Polygon({})", Points(polygon.vertices())),
+        Shape::Disc { radius } => format!("Disc(center: {}, radius: {radius:?})", PrintedXy(pose.position())),
+        Shape::Rectangle { min, max } if at_origin => {
+            format!("Box(min: {}, max: {})", PrintedXy(*min), PrintedXy(*max))
+        }
+        Shape::Polygon(polygon) if at_origin => format!("Polygon({})", PrintedPoints(polygon.vertices())),
         _ => {
             let placed = shape.place(pose);
-            format!("Rounded(points: {}, radius: {:?})", Points(placed.core()), placed.radius())
+            format!("Rounded(points: {}, radius: {:?})", PrintedPoints(placed.core()), placed.radius())
         }
     }
 }
 
 /// A point as `(x, y)`. `{:?}` of an `f64` prints the shortest digits that read back as the same bits.
-struct Xy(Point2);
+struct PrintedXy(Point2);
 
-impl fmt::Display for Xy {
+impl fmt::Display for PrintedXy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "({:?}, {:?})", self.0.x, self.0.y)
     }
 }
 
-struct Points<'a>(&'a [Point2]);
+struct PrintedPoints<'a>(&'a [Point2]);
 
-impl fmt::Display for Points<'_> {
+impl fmt::Display for PrintedPoints<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_char('[')?;
         for (i, p) in self.0.iter().enumerate() {
-            write!(f, "{}{}", if i == 0 { "" } else { ", " }, Xy(*p))?;
+            write!(f, "{}{}", if i == 0 { "" } else { ", " }, PrintedXy(*p))?;
         }
         f.write_char(']')
     }

@@ -13,14 +13,14 @@ use crate::worlds::{WORLD_VERSION, WorldError, WorldItem, WorldProblem};
 
 /// The text of a world file, and the file's name in errors.
 #[derive(Clone, Copy)]
-pub(crate) struct Source<'a> {
+pub(crate) struct FileText<'a> {
     pub file: &'a str,
     pub text: &'a str,
 }
 
 /// A part of a world file that an error is about.
 #[derive(Clone, Copy)]
-pub(crate) enum Part<'a> {
+pub(crate) enum FilePart<'a> {
     Name,
     Bounds,
     Item(&'a WorldItem),
@@ -29,7 +29,7 @@ pub(crate) enum Part<'a> {
 /// The head of a file, whatever else it holds.
 #[derive(Deserialize)]
 #[serde(rename = "World")]
-struct Head<'a> {
+struct FileHead<'a> {
     #[serde(borrow)]
     version: &'a RawValue,
     #[serde(borrow)]
@@ -41,7 +41,7 @@ struct Head<'a> {
 /// The version of a file, whatever else it holds.
 #[derive(Deserialize)]
 #[serde(rename = "World")]
-struct Version {
+struct FileVersion {
     version: u64,
 }
 
@@ -85,14 +85,14 @@ impl<'a> Lists<'a> {
     }
 }
 
-impl<'a> Source<'a> {
+impl<'a> FileText<'a> {
     /// Reads the file as written. Refuses other versions of the format.
     pub fn read(&self) -> Result<WorldText, WorldError> {
         let file: Result<WorldText, _> = ron::from_str(self.text);
         // A file of another version may have another form; then the version is the error to report.
         let version = match &file {
             Ok(file) => Some(file.version),
-            Err(_) => ron::from_str(self.text).ok().map(|v: Version| v.version),
+            Err(_) => ron::from_str(self.text).ok().map(|v: FileVersion| v.version),
         };
         if let Some(other) = version.filter(|v| *v != WORLD_VERSION) {
             let at = self.position(self.head(|head| head.version));
@@ -105,11 +105,11 @@ impl<'a> Source<'a> {
     }
 
     /// An error at the beginning of a part.
-    pub fn error(&self, part: Part, problem: impl Into<WorldProblem>) -> WorldError {
+    pub fn error(&self, part: FilePart, problem: impl Into<WorldProblem>) -> WorldError {
         let (offset, item) = match part {
-            Part::Name => (self.head(|head| head.name), None),
-            Part::Bounds => (self.head(|head| head.bounds), None),
-            Part::Item(item) => (self.item_offset(item), Some(item.clone())),
+            FilePart::Name => (self.head(|head| head.name), None),
+            FilePart::Bounds => (self.head(|head| head.bounds), None),
+            FilePart::Item(item) => (self.item_offset(item), Some(item.clone())),
         };
         self.error_at(self.position(offset), item, problem.into())
     }
@@ -135,8 +135,8 @@ impl<'a> Source<'a> {
     }
 
     /// Byte offset of a part of the head; 0 if the head cannot be read.
-    fn head(&self, part: impl Fn(&Head<'a>) -> &'a RawValue) -> usize {
-        ron::from_str(self.text).map_or(0, |head: Head| self.offset(part(&head)))
+    fn head(&self, part: impl Fn(&FileHead<'a>) -> &'a RawValue) -> usize {
+        ron::from_str(self.text).map_or(0, |head: FileHead| self.offset(part(&head)))
     }
 
     fn lists(&self) -> Option<Lists<'a>> {

@@ -28,13 +28,13 @@ const ROUNDING: f64 = 1e-9;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct RoutePath {
-    pieces: Vec<Piece>,
+    pieces: Vec<RoutePiece>,
     length: f64,
 }
 
 /// A straight piece or an arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Piece {
+struct RoutePiece {
     /// Arc length at its start, metres.
     from: f64,
     /// Where it starts, and which way it goes there.
@@ -46,7 +46,7 @@ struct Piece {
 }
 
 /// A corner: where its arc begins and ends, and the way out.
-struct Corner {
+struct RoundedCorner {
     at: Point2,
     /// The direction of the side that leaves it, radians.
     out: f64,
@@ -75,9 +75,9 @@ impl RoutePath {
                 return Err(RouteError::TurnsBack(i));
             }
             let turn = if turn.abs() < STRAIGHT { 0.0 } else { turn };
-            Ok(Corner { at: points[i], out: bearings[i], turn, cut: radius * num::tan(0.5 * turn.abs()) })
+            Ok(RoundedCorner { at: points[i], out: bearings[i], turn, cut: radius * num::tan(0.5 * turn.abs()) })
         };
-        let corners: Vec<Corner> = (0..count).map(corner).collect::<Result<_, _>>()?;
+        let corners: Vec<RoundedCorner> = (0..count).map(corner).collect::<Result<_, _>>()?;
         let mut path = RoutePath { pieces: Vec::with_capacity(2 * count), length: 0.0 };
         for (index, corner) in corners.iter().enumerate() {
             let next = &corners[after(index)];
@@ -96,7 +96,7 @@ impl RoutePath {
 
     fn push(&mut self, start: Pose2, length: f64, curvature: f64) {
         if length > ROUNDING {
-            self.pieces.push(Piece { from: self.length, start, length, curvature });
+            self.pieces.push(RoutePiece { from: self.length, start, length, curvature });
             self.length += length;
         }
     }
@@ -156,7 +156,7 @@ fn chords(length: f64, curvature: f64, stray: f64) -> u32 {
     if count >= 64.0 { 64 } else { (count as u32).max(1) }
 }
 
-impl Piece {
+impl RoutePiece {
     fn at(&self, ahead: f64) -> Pose2 {
         self.start.boxplus(&Tangent2::new(ahead, 0.0, ahead * self.curvature))
     }

@@ -16,7 +16,7 @@ const STRIDE: u32 = 16;
 /// The distance of a world's points along its lines, metres.
 const SPACING: f64 = 0.05;
 /// The largest number of points between the corners of a world; of a larger one the points are farther apart.
-const MOST: f64 = 100_000.0;
+const MAX_POINTS: f64 = 100_000.0;
 /// The number of points between the corners of a robot's part.
 const AROUND: f64 = 128.0;
 
@@ -83,7 +83,7 @@ pub fn world(tick: u64, world: &World) -> PointCloud {
     let all: f64 = lines.iter().map(|(line, _)| length(line)).sum();
     let mut cloud = Cloud::default();
     for (line, role) in &lines {
-        cloud.line(line, num::greater(SPACING, all / MOST), *role);
+        cloud.line(line, num::greater(SPACING, all / MAX_POINTS), *role);
     }
     cloud.message(tick, frames::of_world(world))
 }

@@ -2,10 +2,10 @@
 
 use crate::simulation::RobotView;
 
-use super::message::{Log, Timestamp, level};
+use super::message::{LogMessage, Timestamp, level};
 
 /// The messages about a tick. `before` are the robots after the previous tick, `now` those after this one.
-pub fn news(tick: u64, before: &[RobotView], now: &[RobotView]) -> Vec<Log> {
+pub fn news(tick: u64, before: &[RobotView], now: &[RobotView]) -> Vec<LogMessage> {
     let mut messages = Vec::new();
     for (before, now) in before.iter().zip(now) {
         let mut tell = |level, message| messages.push(message_of(tick, level, &now.name, message));
@@ -25,6 +25,6 @@ pub fn news(tick: u64, before: &[RobotView], now: &[RobotView]) -> Vec<Log> {
 }
 
 /// A message about `name`.
-pub fn message_of(tick: u64, level: i32, name: &str, message: String) -> Log {
-    Log { timestamp: Some(Timestamp::of_tick(tick)), level, message, name: name.to_owned() }
+pub fn message_of(tick: u64, level: i32, name: &str, message: String) -> LogMessage {
+    LogMessage { timestamp: Some(Timestamp::of_tick(tick)), level, message, name: name.to_owned() }
 }

@@ -136,14 +136,14 @@ pub struct PackedElementField {
     pub r#type: i32,
 }
 
-/// The levels of a [`Log`].
+/// The levels of a [`LogMessage`].
 pub mod level {
     pub const INFO: i32 = 2;
     pub const WARNING: i32 = 3;
 }
 
 #[derive(Clone, PartialEq, Message)]
-pub struct Log {
+pub struct LogMessage {
     #[prost(message, optional, tag = "1")]
     pub timestamp: Option<Timestamp>,
     /// An enumeration in the schema.

@@ -89,7 +89,7 @@ pub fn write_foxglove_of_file(
     add: impl FnOnce(&mut App),
     on_frame: impl FnMut(),
 ) -> Result<(), ExportError> {
-    write(Viewer::Foxglove, Source { file, log }, out, add, on_frame)
+    write(Viewer::Foxglove, LoggedFile { file, log }, out, add, on_frame)
 }
 
 /// Writes a log for Rerun, as [`write_foxglove`] does for Foxglove. Rerun draws no scene entities and no laser scans,
@@ -134,7 +134,7 @@ pub fn write_rerun_of_file(
     add: impl FnOnce(&mut App),
     on_frame: impl FnMut(),
 ) -> Result<(), ExportError> {
-    write(Viewer::Rerun, Source { file, log }, out, add, on_frame)
+    write(Viewer::Rerun, LoggedFile { file, log }, out, add, on_frame)
 }
 
 /// The bytes of the file that a log is written as.
@@ -145,7 +145,7 @@ fn file_of(log: &Log) -> Result<Vec<u8>, ExportError> {
 }
 
 /// A log with the bytes of its file.
-struct Source<'a> {
+struct LoggedFile<'a> {
     file: &'a [u8],
     log: &'a Log,
 }
@@ -153,7 +153,7 @@ struct Source<'a> {
 /// Writes a log for a viewer.
 fn write(
     viewer: Viewer,
-    Source { file, log }: Source<'_>,
+    LoggedFile { file, log }: LoggedFile<'_>,
     out: impl Write,
     add: impl FnOnce(&mut App),
     mut on_frame: impl FnMut(),

@@ -46,7 +46,7 @@ impl Moment<'_> {
         if let Some(update) = scene::changed_flashes(tick, before, robots) {
             out.message("/viewer/contacts", SCENE, tick, &update)?;
         }
-        for Reading { topic, sensor, robot, world } in self.readings() {
+        for SensorReading { topic, sensor, robot, world } in self.readings() {
             let mut scan = laser_scan(tick, sensor);
             if sensor.name.is_empty() {
                 scan.frame_id = frames::of_robot(&robot.name);
@@ -80,14 +80,14 @@ impl Moment<'_> {
             out.message(&format!("/viewer/paths/{}", path.robot), CLOUD, tick, &cloud::path(path))?;
             out.message(&format!("/viewer/contacts/{}", path.robot), CLOUD, tick, &cloud::contacts(path))?;
         }
-        for Reading { topic, sensor, world, .. } in self.readings() {
+        for SensorReading { topic, sensor, world, .. } in self.readings() {
             out.message(&topic, CLOUD, tick, &cloud::scan(tick, sensor, world))?;
         }
         Ok(())
     }
 
     /// The sensors, each with its topic.
-    fn readings(&self) -> impl Iterator<Item = Reading<'_>> {
+    fn readings(&self) -> impl Iterator<Item = SensorReading<'_>> {
         self.sensors.iter().filter_map(|sensor| {
             let robot = self.robots.get(sensor.robot as usize).filter(|robot| robot.id == sensor.robot)?;
             let world = self.worlds.get(robot.world as usize)?;
@@ -95,13 +95,13 @@ impl Moment<'_> {
             if !sensor.name.is_empty() {
                 topic = format!("{topic}/{}", sensor.name);
             }
-            Some(Reading { topic, sensor, robot, world })
+            Some(SensorReading { topic, sensor, robot, world })
         })
     }
 }
 
 /// A sensor with its robot.
-struct Reading<'a> {
+struct SensorReading<'a> {
     topic: String,
     sensor: &'a SensorView,
     robot: &'a RobotView,

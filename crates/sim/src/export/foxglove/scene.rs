@@ -73,7 +73,7 @@ pub fn changed_robots(tick: u64, before: &[RobotView], now: &[RobotView]) -> Opt
     if same {
         return None;
     }
-    let part = |id: &String| Look { id: id.clone(), role: Role::Robot, z: ABOVE };
+    let part = |id: &String| PartStyle { id: id.clone(), role: Role::Robot, z: ABOVE };
     let entities = parts(tick, now, part);
     let deletions = gone(tick, &parts(tick, before, part), &entities);
     Some(SceneUpdate { deletions, entities })
@@ -83,7 +83,7 @@ pub fn changed_robots(tick: u64, before: &[RobotView], now: &[RobotView]) -> Opt
 pub fn changed_flashes(tick: u64, before: &[RobotView], now: &[RobotView]) -> Option<SceneUpdate> {
     let flashing =
         |robots: &[RobotView]| -> Vec<RobotView> { robots.iter().filter(|robot| robot.flash > 0).cloned().collect() };
-    let part = |id: &String| Look { id: format!("contact/{id}"), role: Role::Goal, z: 2.0 * ABOVE };
+    let part = |id: &String| PartStyle { id: format!("contact/{id}"), role: Role::Goal, z: 2.0 * ABOVE };
     let entities = parts(tick, &flashing(now), part);
     let old = parts(tick, &flashing(before), part);
     let ids = |entities: &[SceneEntity]| entities.iter().map(|e| e.id.clone()).collect::<Vec<_>>();
@@ -94,19 +94,19 @@ pub fn changed_flashes(tick: u64, before: &[RobotView], now: &[RobotView]) -> Op
 }
 
 /// How a part is drawn.
-struct Look {
+struct PartStyle {
     id: String,
     role: Role,
     z: f64,
 }
 
 /// An entity for each part of the robots, as `look` says for the part's frame.
-fn parts(tick: u64, robots: &[RobotView], look: impl Fn(&String) -> Look) -> Vec<SceneEntity> {
+fn parts(tick: u64, robots: &[RobotView], look: impl Fn(&String) -> PartStyle) -> Vec<SceneEntity> {
     let mut entities = Vec::new();
     for robot in robots {
         for (k, part) in robot.footprint.parts().iter().enumerate() {
             let frame_id = frames::of_part(&robot.name, k);
-            let Look { id, role, z } = look(&frame_id);
+            let PartStyle { id, role, z } = look(&frame_id);
             let mut entity = SceneEntity { frame_id, id, frame_locked: true, ..empty(tick) };
             draw(&mut entity, &polygon_of(&part.shape().place(&Pose2::IDENTITY)), role, 0.85, z);
             entities.push(entity);

@@ -5,7 +5,7 @@ use super::{Bug1Sensor, Bug1Walk, WalkEnd};
 use motion_lab_core::collision::{Checker, Problem, Scene};
 use motion_lab_core::configuration::R2;
 use motion_lab_core::geometry::{Aabb, Point2, Segment, Shape};
-use motion_lab_core::planning::{Bounds, Leaving, NoPath, Planner, Progress, solve};
+use motion_lab_core::planning::{Bounds, NoPath, Planner, Progress, RoundEnd, solve};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::robots::RustyDisc;
 
@@ -40,7 +40,7 @@ fn round_a_disc_it_leaves_where_the_line_from_the_centre_to_the_goal_says() {
     let expected = Point2::from(goal.coords * (circle / motion_lab_core::num::hypot(1.5, 1.2)));
     let off = |place: Point2| (place - expected).norm();
     assert!(off(point.at) < 0.12 && off(point.nearest.unwrap()) < 0.06, "{point:?}, {expected}");
-    assert!(end == WalkEnd::Reached && point.leaving == Leaving::Free && !point.is_misjudged());
+    assert!(end == WalkEnd::Reached && point.leaving == RoundEnd::Free && !point.is_misjudged());
     assert_eq!((walk.rounds(), walk.bumps()), (1, 0));
 }
 

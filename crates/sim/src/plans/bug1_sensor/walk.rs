@@ -5,7 +5,7 @@ use super::rover::{Eyes, KEEP, NOISE, Rover, STEP, Side};
 use motion_lab_core::collision::DiscChecker;
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::num::greater;
-use motion_lab_core::planning::{LeavePoint, Leaving, Sensed};
+use motion_lab_core::planning::{LeavePoint, RoundEnd, Sensed};
 use motion_lab_core::random::Stream;
 use motion_lab_core::robots::{ChartLine, RustyDisc};
 use motion_lab_core::sensors::BeamModel;
@@ -30,7 +30,7 @@ pub enum WalkEnd {
 
 /// What the next step does.
 #[derive(Clone, Debug)]
-enum Phase {
+enum WalkPhase {
     /// Goes straight to the goal; `bumps` is the number of steps that a wall had stopped before.
     Head { bumps: u32 },
     /// Follows the boundary all the way round.
@@ -79,7 +79,7 @@ impl Judge {
 #[derive(Clone, Debug)]
 pub struct Bug1Walk {
     rover: Rover,
-    phase: Phase,
+    phase: WalkPhase,
     judge: Option<Judge>,
     leave_points: Vec<LeavePoint>,
     end: Option<WalkEnd>,
@@ -97,7 +97,7 @@ impl Bug1Walk {
     pub fn new(checker: &DiscChecker, ends: [Point2; 2], noise: Option<(BeamModel, Stream)>) -> Self {
         let eyes = noise.map_or(Eyes::Exact, |noise| Eyes::Noisy(Box::new(noise)));
         let rover = Rover::new(checker.clone(), eyes, ends);
-        Bug1Walk { rover, phase: Phase::Head { bumps: 0 }, judge: None, leave_points: Vec::new(), end: None }
+        Bug1Walk { rover, phase: WalkPhase::Head { bumps: 0 }, judge: None, leave_points: Vec::new(), end: None }
     }
 
     /// Goes a step on at most. Returns why the walk has ended, if it has.
@@ -112,31 +112,31 @@ impl Bug1Walk {
     fn advance(&mut self) -> Option<WalkEnd> {
         let rover = &mut self.rover;
         match &mut self.phase {
-            Phase::Head { bumps } => {
+            WalkPhase::Head { bumps } => {
                 if rover.to_goal() <= STEP {
                     return Some(WalkEnd::Reached);
                 }
                 if rover.bumps > *bumps || rover.is_blocked() {
                     self.judge = Some(Judge::new(rover));
-                    self.phase = Phase::Round(Lap::new(rover));
+                    self.phase = WalkPhase::Round(Lap::new(rover));
                     return None;
                 }
                 rover.step(rover.goal - rover.at, STEP);
             }
-            Phase::Round(lap) => {
+            WalkPhase::Round(lap) => {
                 let lapped = lap.step(rover);
                 self.judge.as_mut().map(Judge::step);
                 match lapped {
                     Lapped::Going => {}
                     Lapped::Closed(round) => self.phase = way_back(rover, round),
-                    Lapped::Lost => return self.leave(Leaving::NotClosed, WalkEnd::NotClosed),
+                    Lapped::Lost => return self.leave(RoundEnd::NotClosed, WalkEnd::NotClosed),
                 }
             }
-            Phase::Return { round, side, last } => {
+            WalkPhase::Return { round, side, last } => {
                 let to = round.leave - rover.at;
                 if to.norm() > BACK {
                     if rover.tick >= *last {
-                        return self.leave(Leaving::NotFound, WalkEnd::NotFound);
+                        return self.leave(RoundEnd::NotFound, WalkEnd::NotFound);
                     }
                     rover.follow(*side);
                     return None;
@@ -144,18 +144,18 @@ impl Bug1Walk {
                 // the rest of the way goes by its own position
                 rover.step(to, greater(to.norm(), 1e-9));
                 if rover.is_blocked() {
-                    return self.leave(Leaving::Behind, WalkEnd::Behind);
+                    return self.leave(RoundEnd::Behind, WalkEnd::Behind);
                 }
                 rover.turn_to_goal();
-                self.phase = Phase::Head { bumps: rover.bumps };
-                return self.leave(Leaving::Free, WalkEnd::TooManyRounds).filter(|_| self.rounds() >= ROUNDS);
+                self.phase = WalkPhase::Head { bumps: rover.bumps };
+                return self.leave(RoundEnd::Free, WalkEnd::TooManyRounds).filter(|_| self.rounds() >= ROUNDS);
             }
         }
         None
     }
 
     /// Notes the end of a round where the rover is. Returns `end`.
-    fn leave(&mut self, leaving: Leaving, end: WalkEnd) -> Option<WalkEnd> {
+    fn leave(&mut self, leaving: RoundEnd, end: WalkEnd) -> Option<WalkEnd> {
         let (at, goal) = (self.rover.at, self.rover.goal);
         let nearest = self.judge.take().and_then(|mut judge| judge.nearest());
         let best = nearest.map_or(0.0, |place| (place - goal).norm());
@@ -207,9 +207,9 @@ impl Bug1Walk {
 }
 
 /// The way back to a round's leave point.
-fn way_back(rover: &Rover, round: Round) -> Phase {
+fn way_back(rover: &Rover, round: Round) -> WalkPhase {
     let ahead = round.until_leave <= 0.5 * round.length;
     let (side, way) =
         if ahead { (Side::Right, round.until_leave) } else { (Side::Left, round.length - round.until_leave) };
-    Phase::Return { round, side, last: rover.tick + (1.5 * way / STEP) as u64 + 50 }
+    WalkPhase::Return { round, side, last: rover.tick + (1.5 * way / STEP) as u64 + 50 }
 }

@@ -86,15 +86,15 @@ pub struct InputMessage {
     pub tick: u64,
     #[prost(string, tag = "2")]
     pub robot: String,
-    #[prost(oneof = "InputKind", tags = "3, 4, 5, 6, 7, 9, 10, 11, 12, 13")]
-    pub input: Option<InputKind>,
+    #[prost(oneof = "InputKindMessage", tags = "3, 4, 5, 6, 7, 9, 10, 11, 12, 13")]
+    pub input: Option<InputKindMessage>,
     /// Format 2: the world that is changed; then there is no robot.
     #[prost(string, tag = "8")]
     pub world: String,
 }
 
 #[derive(Clone, PartialEq, Oneof)]
-pub enum InputKind {
+pub enum InputKindMessage {
     #[prost(message, tag = "3")]
     Drive(DriveMessage),
     #[prost(message, tag = "4")]
@@ -244,12 +244,12 @@ impl InputMessage {
         let coordinates = |q: &[Quantized]| CoordinatesMessage { values: q.iter().map(|c| c.value()).collect() };
         let input = match &event.input {
             RobotInput::Drive(first, second) => {
-                InputKind::Drive(DriveMessage { first: i32::from(*first), second: i32::from(*second) })
+                InputKindMessage::Drive(DriveMessage { first: i32::from(*first), second: i32::from(*second) })
             }
-            RobotInput::MoveTo(q) => InputKind::MoveTo(coordinates(q)),
-            RobotInput::Teleport(q) => InputKind::Teleport(coordinates(q)),
-            RobotInput::SetTrailer(on) => InputKind::SetTrailer(*on),
-            RobotInput::Release => InputKind::Release(ReleaseMessage {}),
+            RobotInput::MoveTo(q) => InputKindMessage::MoveTo(coordinates(q)),
+            RobotInput::Teleport(q) => InputKindMessage::Teleport(coordinates(q)),
+            RobotInput::SetTrailer(on) => InputKindMessage::SetTrailer(*on),
+            RobotInput::Release => InputKindMessage::Release(ReleaseMessage {}),
         };
         InputMessage { tick: event.tick, robot: event.robot.clone(), world: String::new(), input: Some(input) }
     }
@@ -257,15 +257,15 @@ impl InputMessage {
     pub fn of_change(event: &WorldEvent) -> Self {
         let WorldEvent { tick, world, change } = event;
         let input = match change.clone() {
-            WorldChange::Close(name) => InputKind::Close(name),
-            WorldChange::Open(name) => InputKind::Open(name),
-            WorldChange::Remove(name) => InputKind::Remove(name),
+            WorldChange::Close(name) => InputKindMessage::Close(name),
+            WorldChange::Open(name) => InputKindMessage::Open(name),
+            WorldChange::Remove(name) => InputKindMessage::Remove(name),
             WorldChange::Move { name, to: (x, y, theta) } => {
-                InputKind::Move(MoveMessage { name, to: vec![x.value(), y.value(), theta.value()] })
+                InputKindMessage::Move(MoveMessage { name, to: vec![x.value(), y.value(), theta.value()] })
             }
             WorldChange::Add { name, points, radius } => {
                 let points = points.iter().flat_map(|(x, y)| [x.value(), y.value()]).collect();
-                InputKind::Add(AddMessage { name, points, radius: Some(radius.value()) })
+                InputKindMessage::Add(AddMessage { name, points, radius: Some(radius.value()) })
             }
         };
         InputMessage { tick: *tick, robot: String::new(), world: world.clone(), input: Some(input) }

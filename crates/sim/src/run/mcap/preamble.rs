@@ -36,13 +36,13 @@ pub struct Preamble {
 #[serde(rename = "Config", deny_unknown_fields)]
 struct ConfigText {
     ticks: u64,
-    sensor: Option<SensorText>,
+    sensor: Option<PreambleSensor>,
     worlds: Vec<String>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct SensorText {
+struct PreambleSensor {
     n_rays: u32,
     max_range: f64,
 }

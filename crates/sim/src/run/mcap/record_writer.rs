@@ -16,9 +16,9 @@ use super::{LogError, TICK_NANOSECONDS};
 
 /// The bytes that records were written to and that no piece has taken yet.
 #[derive(Clone, Default)]
-struct Written(Arc<Mutex<Vec<u8>>>);
+struct PendingBytes(Arc<Mutex<Vec<u8>>>);
 
-impl Written {
+impl PendingBytes {
     /// Moves the bytes to the end of `piece`, to an empty one without copying them.
     fn move_to(&self, piece: &mut Vec<u8>) {
         let mut bytes = self.0.lock().unwrap_or_else(PoisonError::into_inner);
@@ -31,7 +31,7 @@ impl Written {
     }
 }
 
-impl Write for Written {
+impl Write for PendingBytes {
     fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(bytes);
         Ok(bytes.len())
@@ -44,8 +44,8 @@ impl Write for Written {
 
 /// Writes records one after the other.
 pub struct RecordWriter {
-    to: Writer<NoSeek<Written>>,
-    written: Written,
+    to: Writer<NoSeek<PendingBytes>>,
+    written: PendingBytes,
 }
 
 /// The failure of writing to memory, which an allocation alone could cause.
@@ -56,7 +56,7 @@ fn failed(error: mcap::McapError) -> LogError {
 impl RecordWriter {
     /// Starts a file, with its magic bytes and its header.
     pub fn begin() -> Result<Self, LogError> {
-        let written = Written::default();
+        let written = PendingBytes::default();
         let options = WriteOptions::new().use_chunks(false).compression(None).disable_seeking(true);
         let to = options.profile(PROFILE).library(PROFILE).create(NoSeek::new(written.clone())).map_err(failed)?;
         Ok(RecordWriter { to, written })

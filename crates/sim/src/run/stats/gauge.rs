@@ -14,7 +14,7 @@ use motion_lab_core::worlds::Resident;
 
 /// What is measured of a robot at a frame.
 #[derive(Clone, Debug)]
-pub(super) struct Reading {
+pub(super) struct GaugeReading {
     /// Distance from its footprint to the nearest obstacle of its world, metres; 0 in contact, infinity without any.
     /// `None` for a robot without a known footprint.
     pub(super) clearance: Option<f64>,
@@ -26,36 +26,36 @@ pub(super) struct Reading {
 }
 
 /// A robot of the run.
-struct Measured {
+struct GaugedRobot {
     resident: Resident,
     /// The number of its world.
     world: usize,
     about: Option<&'static RobotKind>,
     /// Where it was at the last frame.
-    before: Option<Place>,
+    before: Option<PathPosition>,
     refusals: u32,
 }
 
 /// Where a robot is, as its path counts.
 #[derive(Clone, Copy)]
-enum Place {
+enum PathPosition {
     /// The pose of a body that drives.
     Body(Pose2),
     /// An arm's tip, or where another robot's first part is.
     Point(Point2),
 }
 
-impl Place {
+impl PathPosition {
     /// The signed length of the path from here to `to`, metres: of a body the arc of a constant twist, of a point the
     /// straight line.
-    fn step(self, to: Place) -> Option<f64> {
+    fn step(self, to: PathPosition) -> Option<f64> {
         match (self, to) {
-            (Place::Body(from), Place::Body(to)) => {
+            (PathPosition::Body(from), PathPosition::Body(to)) => {
                 let twist = to.boxminus(&from);
                 let length = hypot(twist.dx, twist.dy);
                 Some(if twist.dx < 0.0 { -length } else { length })
             }
-            (Place::Point(from), Place::Point(to)) => Some(hypot(to.x - from.x, to.y - from.y)),
+            (PathPosition::Point(from), PathPosition::Point(to)) => Some(hypot(to.x - from.x, to.y - from.y)),
             _ => None,
         }
     }
@@ -66,7 +66,7 @@ pub(super) struct Gauge<'a> {
     script: &'a Script,
     kinds: &'a Kinds,
     standing: Standing,
-    robots: Vec<Measured>,
+    robots: Vec<GaugedRobot>,
     /// Whether clearances are measured, which takes most of the time.
     measures_clearance: bool,
 }
@@ -75,7 +75,7 @@ impl<'a> Gauge<'a> {
     /// A gauge of the runs of this configuration and script, with these kinds of robots.
     pub(super) fn new(config: &TourConfig, script: &'a Script, kinds: &'a Kinds, measures_clearance: bool) -> Self {
         let residents = config.worlds.iter().enumerate().flat_map(|(i, w)| w.robots.iter().map(move |r| (i, r)));
-        let robots = residents.map(|(world, resident)| Measured {
+        let robots = residents.map(|(world, resident)| GaugedRobot {
             resident: resident.clone(),
             world,
             about: kinds.of(&resident.kind),
@@ -87,15 +87,15 @@ impl<'a> Gauge<'a> {
     }
 
     /// Measures the robots at the next frame, in the order of their ids.
-    pub(super) fn read(&mut self, frame: &Frame) -> Vec<Reading> {
+    pub(super) fn read(&mut self, frame: &Frame) -> Vec<GaugeReading> {
         let Gauge { script, kinds, standing, robots, measures_clearance } = self;
         standing.follow(frame);
         let from = script.events.partition_point(|e| e.tick < frame.tick);
         let due = script.events[from..].iter().take_while(|e| e.tick == frame.tick);
         let teleports = due.filter(|e| matches!(e.input, RobotInput::Teleport(_)));
         let teleported: BTreeSet<&str> = teleports.map(|e| e.robot.as_str()).collect();
-        let read = |(measured, state): (&mut Measured, &RobotState)| {
-            let Measured { resident, world, about, before, refusals } = measured;
+        let read = |(measured, state): (&mut GaugedRobot, &RobotState)| {
+            let GaugedRobot { resident, world, about, before, refusals } = measured;
             let lab = AnyRobot::sized(&resident.kind, &state.configuration, resident.sizes.as_ref());
             let footprint = match &lab {
                 Some((robot, q)) => Some(robot.footprint(q)),
@@ -108,7 +108,7 @@ impl<'a> Gauge<'a> {
             (*before, *refusals) = (now, state.refusals);
             let scene = standing.scene(*world).filter(|_| *measures_clearance);
             let clearance = scene.zip(footprint).map(|(scene, footprint)| scene.distance(&footprint));
-            Reading { clearance, step, encoders: lab.and_then(|(robot, _)| encoders(&robot, state)) }
+            GaugeReading { clearance, step, encoders: lab.and_then(|(robot, _)| encoders(&robot, state)) }
         };
         robots.iter_mut().zip(&frame.robots).map(read).collect()
     }
@@ -119,13 +119,13 @@ fn place(
     lab: Option<&(AnyRobot, AnyConfiguration)>,
     footprint: Option<&Footprint>,
     state: &RobotState,
-) -> Option<Place> {
+) -> Option<PathPosition> {
     if about.is_some_and(|kind| kind.drives) {
-        return Pose2::from_coordinates(state.configuration.get(..3)?).map(Place::Body);
+        return Pose2::from_coordinates(state.configuration.get(..3)?).map(PathPosition::Body);
     }
     match lab {
-        Some((robot, q)) => Some(Place::Point(robot.reference(q))),
-        None => Some(Place::Point(footprint?.parts().first()?.pose().position())),
+        Some((robot, q)) => Some(PathPosition::Point(robot.reference(q))),
+        None => Some(PathPosition::Point(footprint?.parts().first()?.pose().position())),
     }
 }
 

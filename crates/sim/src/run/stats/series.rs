@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::gauge::{Gauge, Reading};
+use super::gauge::{Gauge, GaugeReading};
 use crate::run::{DT, Frame, RobotState, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::configuration::{Kinds, RobotKind};
@@ -150,7 +150,7 @@ impl<'a> SeriesGatherer<'a> {
 fn value(
     quantity: Quantity,
     line: usize,
-    reading: &Reading,
+    reading: &GaugeReading,
     state: &RobotState,
     travelled: Option<f64>,
 ) -> Option<f64> {

@@ -115,12 +115,12 @@ fn a_long_run_is_thinned_and_goes_on_counting() {
     let world = app.world_mut();
     let trail = Trail::default();
     let sample = |tick| Sample { tick, robots: vec![trail.clone(); 3] };
-    world.resource_mut::<History>().samples = (0..MOST_SAMPLES as u64).map(sample).collect();
-    world.resource_mut::<History>().latest = Some(sample(MOST_SAMPLES as u64 - 1));
-    world.resource_mut::<Transport>().tick = MOST_SAMPLES as u64 - 1;
+    world.resource_mut::<History>().samples = (0..MAX_SAMPLES as u64).map(sample).collect();
+    world.resource_mut::<History>().latest = Some(sample(MAX_SAMPLES as u64 - 1));
+    world.resource_mut::<Transport>().tick = MAX_SAMPLES as u64 - 1;
     (0..2).for_each(|_| step(world));
     let history = world.resource::<History>();
-    assert_eq!(history.samples(), MOST_SAMPLES / 2 + 1);
+    assert_eq!(history.samples(), MAX_SAMPLES / 2 + 1);
     assert!(history.samples.iter().all(|s| s.tick % 2 == 0));
     assert!(history.series(0, 100, |t| Some(t.travelled)).len() <= 101);
 }
@@ -190,7 +190,7 @@ fn more_than_a_hundred_robots_are_measured_once_a_second_and_counted_every_tick(
 
 #[test]
 fn marks_are_thinned_by_halves_and_the_last_one_stays() {
-    for count in [MOST_MARKS + 1, MOST_MARKS + 2] {
+    for count in [MAX_MARKS + 1, MAX_MARKS + 2] {
         let mark = |tick| TickMark { tick, robot: 0, what: Happening::Contact, at: Point2::origin() };
         let mut history = History { marks: (1..=count as u64).map(mark).collect(), ..History::default() };
         history.thin_marks();

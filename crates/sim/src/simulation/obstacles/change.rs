@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::roster::{Ground, ObstacleRoster, at_work, place, refresh, wanted};
+use super::roster::{ObstacleRoster, WorldObstacles, at_work, place, refresh, wanted};
 use crate::run::WorldEvent;
 use crate::simulation::{ObstacleShape, Placement, Residents, RobotId, RobotName, RobotOps};
 use motion_lab_core::collision::touch;
@@ -27,7 +27,7 @@ pub struct ChangeRefused {
 pub(crate) struct RefusedChanges(pub(crate) Vec<ChangeRefused>);
 
 /// The first robot that stands where an obstacle would be.
-fn in_the_way(world: &World, ground: &Ground, number: usize, placement: &Placement) -> Option<String> {
+fn in_the_way(world: &World, ground: &WorldObstacles, number: usize, placement: &Placement) -> Option<String> {
     if ground.placement(number) == Some(*placement) {
         return None;
     }

@@ -16,7 +16,7 @@ use motion_lab_core::worlds::{Obstacle, World as WorldModel};
 
 /// Where an obstacle's shape comes from.
 #[derive(Debug)]
-enum Source {
+enum ShapeSource {
     /// The world's obstacle of this number.
     File(usize),
     /// The world's door of this number.
@@ -26,20 +26,20 @@ enum Source {
 }
 
 #[derive(Debug)]
-struct Entry {
+struct RosterEntry {
     entity: Entity,
-    source: Source,
+    source: ShapeSource,
     at_first: Placement,
     now: Placement,
 }
 
 /// The obstacles of one world of the run.
 #[derive(Debug)]
-pub(crate) struct Ground {
+pub(crate) struct WorldObstacles {
     entity: Entity,
     /// The world at the start of the run.
     start: Arc<WorldModel>,
-    entries: Vec<Entry>,
+    entries: Vec<RosterEntry>,
     numbers: BTreeMap<String, usize>,
     /// The numbers of the entries that are not as they were at first.
     changed: BTreeSet<usize>,
@@ -50,7 +50,7 @@ pub(crate) struct Ground {
 /// The obstacles and doors of the run, by world and number. It decides what robots meet. The entities carry the same.
 #[derive(Resource, Default, Debug)]
 pub struct ObstacleRoster {
-    pub(crate) grounds: Vec<Ground>,
+    pub(crate) grounds: Vec<WorldObstacles>,
     /// The number of the next scene's revision; it never comes back in one app.
     next_revision: u64,
     /// Whether the simulation itself is changing obstacles.
@@ -59,7 +59,7 @@ pub struct ObstacleRoster {
     pub(crate) is_unsettled: bool,
 }
 
-impl Ground {
+impl WorldObstacles {
     /// Whether the world's entities are the ground's own, each where it is by the ground.
     fn is_as_spawned(&self, world: &World) -> bool {
         let there = world.get::<Obstacles>(self.entity()).map_or(0, |obstacles| obstacles.len());
@@ -69,7 +69,7 @@ impl Ground {
 
     /// Spawns the obstacles and the doors of a world, as children of its entity.
     pub(crate) fn spawn(world: &mut World, entity: Entity, start: Arc<WorldModel>) -> Self {
-        let mut ground = Ground {
+        let mut ground = WorldObstacles {
             entity,
             start: Arc::clone(&start),
             entries: Vec::new(),
@@ -80,12 +80,12 @@ impl Ground {
         let there = Placement::default();
         for (i, obstacle) in start.obstacles.iter().enumerate() {
             let id = world.spawn((shape_of(obstacle), there, ObstacleOf(entity))).id();
-            ground.push(&obstacle.name, id, Source::File(i), there);
+            ground.push(&obstacle.name, id, ShapeSource::File(i), there);
         }
         for (i, door) in start.doors.iter().enumerate() {
             let placement = Placement { present: !door.open, ..there };
             let id = world.spawn((shape_of(&door.leaf()), placement, Door, ObstacleOf(entity))).id();
-            ground.push(&door.name, id, Source::Door(i), placement);
+            ground.push(&door.name, id, ShapeSource::Door(i), placement);
         }
         ground
     }
@@ -94,18 +94,18 @@ impl Ground {
     pub(crate) fn of_entities(entity: Entity, start: Arc<WorldModel>, entities: &[Entity]) -> Self {
         let (changed, numbers) = (BTreeSet::new(), BTreeMap::new());
         let mut ground =
-            Ground { entity, start: Arc::clone(&start), entries: vec![], numbers, changed, is_stale: true };
-        let obstacles = start.obstacles.iter().enumerate().map(|(i, o)| (&o.name, Source::File(i), true));
-        let doors = start.doors.iter().enumerate().map(|(i, d)| (&d.name, Source::Door(i), !d.open));
+            WorldObstacles { entity, start: Arc::clone(&start), entries: vec![], numbers, changed, is_stale: true };
+        let obstacles = start.obstacles.iter().enumerate().map(|(i, o)| (&o.name, ShapeSource::File(i), true));
+        let doors = start.doors.iter().enumerate().map(|(i, d)| (&d.name, ShapeSource::Door(i), !d.open));
         for ((name, source, present), &entity) in obstacles.chain(doors).zip(entities) {
             ground.push(name, entity, source, Placement { present, ..Placement::default() });
         }
         ground
     }
 
-    fn push(&mut self, name: &str, entity: Entity, source: Source, at_first: Placement) {
+    fn push(&mut self, name: &str, entity: Entity, source: ShapeSource, at_first: Placement) {
         self.numbers.insert(name.to_owned(), self.entries.len());
-        self.entries.push(Entry { entity, source, at_first, now: at_first });
+        self.entries.push(RosterEntry { entity, source, at_first, now: at_first });
     }
 
     /// The world's entity.
@@ -120,7 +120,7 @@ impl Ground {
 
     /// The entities of the obstacles and doors of the world's file, in their order.
     pub(crate) fn entities(&self) -> impl Iterator<Item = Entity> + '_ {
-        self.entries.iter().filter(|e| !matches!(e.source, Source::Added(_))).map(|e| e.entity)
+        self.entries.iter().filter(|e| !matches!(e.source, ShapeSource::Added(_))).map(|e| e.entity)
     }
 
     /// The number of the obstacle or the door of this name.
@@ -138,12 +138,12 @@ impl Ground {
         let entry = self.entries.get(number).filter(|_| placement.present)?;
         let leaf;
         let obstacle = match &entry.source {
-            Source::File(i) => self.start.obstacles.get(*i)?,
-            Source::Door(i) => {
+            ShapeSource::File(i) => self.start.obstacles.get(*i)?,
+            ShapeSource::Door(i) => {
                 leaf = self.start.doors.get(*i)?.leaf();
                 &leaf
             }
-            Source::Added(obstacle) => obstacle,
+            ShapeSource::Added(obstacle) => obstacle,
         };
         Some(moved(obstacle, &placement.pose))
     }
@@ -155,7 +155,7 @@ impl Ground {
         }
         let mut model = WorldModel { obstacles: Vec::new(), ..WorldModel::clone(&self.start) };
         for (number, entry) in self.entries.iter().enumerate() {
-            if let Source::Door(i) = entry.source {
+            if let ShapeSource::Door(i) = entry.source {
                 model.doors[i].open = !entry.now.present;
             } else {
                 model.obstacles.extend(self.placed(number, &entry.now));
@@ -206,7 +206,7 @@ pub(crate) fn at_work<T>(world: &mut World, work: impl FnOnce(&mut World, &mut O
 }
 
 /// Puts an obstacle somewhere. The scene follows with [`refresh`].
-pub(crate) fn place(world: &mut World, ground: &mut Ground, number: usize, placement: Placement) {
+pub(crate) fn place(world: &mut World, ground: &mut WorldObstacles, number: usize, placement: Placement) {
     let Some(entry) = ground.entries.get_mut(number).filter(|e| e.now != placement) else { return };
     entry.now = placement;
     if entry.now == entry.at_first {
@@ -245,10 +245,10 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
         for ground in &mut roster.grounds {
             let wanted = added.remove(ground.start.name.as_str()).unwrap_or_default();
             let file = ground.start.obstacles.len() + ground.start.doors.len();
-            let is_kept = |(entry, obstacle): &(&Entry, &Obstacle)| matches!(&entry.source, Source::Added(own) if own == *obstacle);
+            let is_kept = |(entry, obstacle): &(&RosterEntry, &Obstacle)| matches!(&entry.source, ShapeSource::Added(own) if own == *obstacle);
             let kept = file + ground.entries[file..].iter().zip(&wanted).take_while(is_kept).count();
             for entry in ground.entries.drain(kept..) {
-                if let Source::Added(obstacle) = &entry.source {
+                if let ShapeSource::Added(obstacle) = &entry.source {
                     ground.numbers.remove(&obstacle.name);
                 }
                 ground.is_stale |= entry.now.present;
@@ -259,7 +259,7 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
             for obstacle in wanted.into_iter().skip(kept - file) {
                 let entity = world.spawn((shape_of(&obstacle), absent, ObstacleOf(ground.entity))).id();
                 let name = obstacle.name.clone();
-                ground.push(&name, entity, Source::Added(obstacle), absent);
+                ground.push(&name, entity, ShapeSource::Added(obstacle), absent);
             }
         }
         refresh(world, roster);
@@ -311,7 +311,7 @@ pub(crate) fn set_residents(world: &mut World, models: &[WorldModel]) {
 }
 
 /// The placement that a change asks for, of the obstacle with which number.
-pub(crate) fn wanted(ground: &Ground, change: &WorldChange) -> Option<(usize, Placement)> {
+pub(crate) fn wanted(ground: &WorldObstacles, change: &WorldChange) -> Option<(usize, Placement)> {
     let number = ground.number(change.name())?;
     let placement = match change {
         WorldChange::Close(_) | WorldChange::Add { .. } => Placement::default(),
@@ -322,7 +322,7 @@ pub(crate) fn wanted(ground: &Ground, change: &WorldChange) -> Option<(usize, Pl
 }
 
 /// Begins the roster of a run, in place of the last run's. The worlds' entities are those of the run's [`Roster`].
-pub(crate) fn begin(world: &mut World, grounds: Vec<Ground>) {
+pub(crate) fn begin(world: &mut World, grounds: Vec<WorldObstacles>) {
     let next_revision = world.resource::<ObstacleRoster>().next_revision;
     debug_assert_eq!(grounds.len(), world.resource::<Roster>().worlds().len());
     // observers of what the start spawned may have changed it already

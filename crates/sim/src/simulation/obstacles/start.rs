@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::roster::{Ground, ObstacleRoster, at_work, moved, refresh};
+use super::roster::{ObstacleRoster, WorldObstacles, at_work, moved, refresh};
 use crate::simulation::{
     CommandError, CommandRefused, Door, History, Keyframes, ObstacleShape, Obstacles, PendingInput, Placement,
     RunConfig, SimulatedWorld, Transport, state, tick,
@@ -31,7 +31,7 @@ pub(crate) fn settle_start(world: &mut World) {
             let (obstacles, doors, entities) = gather(world, ground);
             (model.obstacles, model.doors) = (obstacles, doors);
             let (start, entity) = (Arc::new(model.clone()), ground.entity());
-            *ground = Ground::of_entities(entity, Arc::clone(&start), &entities);
+            *ground = WorldObstacles::of_entities(entity, Arc::clone(&start), &entities);
             let index = world.get::<SimulatedWorld>(entity).map_or(0, |w| w.index);
             if let Ok(mut entity) = world.get_entity_mut(entity) {
                 entity.insert(SimulatedWorld { index, model: start });
@@ -52,7 +52,7 @@ pub(crate) fn settle_start(world: &mut World) {
 }
 
 /// The obstacles and the doors of a world's entities, and the entities in the same order.
-fn gather(world: &mut World, ground: &Ground) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Entity>) {
+fn gather(world: &mut World, ground: &WorldObstacles) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Entity>) {
     let there: BTreeSet<Entity> =
         world.get::<Obstacles>(ground.entity()).into_iter().flat_map(Obstacles::iter).collect();
     let known: Vec<Entity> = ground.entities().filter(|e| there.contains(e)).collect();
@@ -75,9 +75,11 @@ fn gather(world: &mut World, ground: &Ground) -> (Vec<Obstacle>, Vec<DoorModel>,
         }
         let is_good = motion_lab_core::worlds::check_name(&shape.name).is_ok() && taken.insert(shape.name.clone());
         let made = if is_good { Some(shape).filter(|s| are_valid(s, &placement.pose)) } else { None };
-        match made.map(|shape| if is_door { door(shape, &placement).map(Made::Door) } else { Some(Made::Obstacle) }) {
-            Some(Some(Made::Door(made))) => doors.push((made, entity)),
-            Some(Some(Made::Obstacle)) => obstacles.push((obstacle(start, shape, &placement.pose), entity)),
+        match made.map(|shape| {
+            if is_door { door(shape, &placement).map(StartObstacle::Door) } else { Some(StartObstacle::Obstacle) }
+        }) {
+            Some(Some(StartObstacle::Door(made))) => doors.push((made, entity)),
+            Some(Some(StartObstacle::Obstacle)) => obstacles.push((obstacle(start, shape, &placement.pose), entity)),
             _ => left_out.push(CommandError::NoObstacle { world: start.name.clone(), name: shape.name.clone() }),
         }
     }
@@ -88,7 +90,7 @@ fn gather(world: &mut World, ground: &Ground) -> (Vec<Obstacle>, Vec<DoorModel>,
     (obstacles.into_iter().map(|(o, _)| o).collect(), doors.into_iter().map(|(d, _)| d).collect(), entities)
 }
 
-enum Made {
+enum StartObstacle {
     Door(DoorModel),
     Obstacle,
 }

@@ -8,7 +8,7 @@ use bevy::prelude::*;
 use crate::run::{Frame, ObstacleState, RobotState};
 
 /// Largest number of keyframes; beyond it every second one is dropped.
-const MOST_KEYFRAMES: usize = 1024;
+const MAX_KEYFRAMES: usize = 1024;
 
 /// Largest size of all keyframes together, bytes; beyond it every second one is dropped.
 const BUDGET: usize = 112_000_000;
@@ -84,7 +84,7 @@ impl Keyframes {
         }
         let size = size_of_frame(frame);
         let has_room =
-            |kept: &Self| kept.frames.len() < MOST_KEYFRAMES && kept.bytes.saturating_add(size) <= kept.budget;
+            |kept: &Self| kept.frames.len() < MAX_KEYFRAMES && kept.bytes.saturating_add(size) <= kept.budget;
         while !has_room(self) && self.frames.len() > 1 {
             self.thin();
         }

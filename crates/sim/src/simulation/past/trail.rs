@@ -7,7 +7,7 @@ use motion_lab_core::configuration::Coordinates;
 use motion_lab_core::geometry::{Footprint, Pose2};
 
 /// Displacement in one tick from which on a robot counts as put there rather than driven, metres.
-const LEAP: f64 = 0.5;
+const MAX_DRIVEN: f64 = 0.5;
 
 /// A robot after one tick.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -52,7 +52,7 @@ impl Trail {
             _ => None,
         };
         let way = pose(&state.configuration).zip(pose(&self.coordinates)).map(|(now, last)| now.boxminus(&last).dx);
-        if let Some(way) = way.filter(|d| d.abs() < LEAP) {
+        if let Some(way) = way.filter(|d| d.abs() < MAX_DRIVEN) {
             self.travelled += way;
             // a robot held at a wall does not move, so its control is no change of direction
             if way.abs() > 1e-6 {

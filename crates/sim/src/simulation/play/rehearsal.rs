@@ -2,8 +2,8 @@
 
 use super::{PlayError, PlayStage, PlayedPath};
 use crate::run::{DT, Event, Quantized, RobotInput, Script};
-use crate::simulation::robot::driven::Driven;
-use crate::simulation::robot::spawn::{Ready, routes, slip, tour};
+use crate::simulation::robot::driven::InputTarget;
+use crate::simulation::robot::spawn::{SpawnableRobot, routes, slip, tour};
 use crate::simulation::tick::drive::Driver;
 use crate::simulation::tick::settle::{cut_among, end_of, is_there};
 use crate::simulation::{DriveMode, InputRefusal, SimulatedRobot};
@@ -14,7 +14,7 @@ use motion_lab_core::random::Stream;
 use motion_lab_core::robots::Drivable;
 
 /// The greatest number of ticks of a script that plays a path: an hour.
-const MOST_TICKS: u64 = 72_000;
+const MAX_TICKS: u64 = 72_000;
 
 /// A robot alone in its world, driven by the functions that a tick of the simulator consists of. Every motion is
 /// certified before it is made.
@@ -24,7 +24,7 @@ pub(super) struct Rehearsal<R: SimulatedRobot> {
     checker: Checker<R>,
     tour: R::Tour,
     slip: Stream,
-    driven: Driven<R>,
+    driven: InputTarget<R>,
     tick: u64,
     tube: f64,
     events: Vec<Event>,
@@ -46,12 +46,12 @@ impl<R: SimulatedRobot> Rehearsal<R> {
         if let Some(other) = world.robots.iter().find(|r| r.name != name) {
             return Err(PlayError::Company { other: other.name.clone(), world: world.name.clone() });
         }
-        let Ready { robot, q, .. } = Ready::new(model, resident, world)?;
+        let SpawnableRobot { robot, q, .. } = SpawnableRobot::new(model, resident, world)?;
         let routes = routes(world, seed).map_err(crate::simulation::SpawnError::from)?;
         Ok(Rehearsal {
             tour: tour(&robot, seed, (world, &routes), resident, &q)?,
             slip: slip(seed, name),
-            driven: Driven { q, mode: DriveMode::default(), extra: robot.initial_extra() },
+            driven: InputTarget { q, mode: DriveMode::default(), extra: robot.initial_extra() },
             checker: Checker::new(Scene::of_world(world), robot.clone()),
             robot,
             name: name.to_owned(),
@@ -106,10 +106,10 @@ impl<R: SimulatedRobot> Rehearsal<R> {
     pub(super) fn step(&mut self) -> Result<R::Drive, PlayError> {
         self.tick += 1;
         let tick = self.tick;
-        if tick > MOST_TICKS {
-            return Err(PlayError::TooLong(MOST_TICKS));
+        if tick > MAX_TICKS {
+            return Err(PlayError::TooLong(MAX_TICKS));
         }
-        let Driven { q, mode, extra } = &mut self.driven;
+        let InputTarget { q, mode, extra } = &mut self.driven;
         let driver = Driver { robot: &self.robot, tour: &self.tour, slip: &self.slip, mode };
         let control = driver.control(tick, q, extra);
         let fitted = self.robot.fitted(q);

@@ -36,18 +36,18 @@ impl PlayablePath for LinePath<Rusty> {
 
 /// A straight piece of the path.
 #[derive(Clone, Copy)]
-struct Line {
+struct StraightPiece {
     from: Point2,
     to: Point2,
     along: Vector2,
     length: f64,
 }
 
-impl Line {
+impl StraightPiece {
     /// The line between two points; `None` between a point and itself.
     fn new(from: Point2, to: Point2) -> Option<Self> {
         let (d, length) = (to - from, hypot(to.x - from.x, to.y - from.y));
-        (length > 0.0).then(|| Line { from, to, along: d / length, length })
+        (length > 0.0).then(|| StraightPiece { from, to, along: d / length, length })
     }
 
     /// How far ahead along the line a point is, and how far to the left of it, metres.
@@ -66,7 +66,8 @@ impl Line {
 /// Turns the rover on the spot at each corner, and drives it along each line with its heading corrected.
 pub(super) fn play(corners: Vec<Point2>, stage: &PlayStage<'_>) -> Result<PlayedPath, PlayError> {
     let mut rehearsal = Rehearsal::new(&RUSTY, RobotKind::RUSTY.name, stage)?;
-    let lines: Vec<Line> = corners.windows(2).filter_map(|ends| Line::new(ends[0], ends[1])).collect();
+    let lines: Vec<StraightPiece> =
+        corners.windows(2).filter_map(|ends| StraightPiece::new(ends[0], ends[1])).collect();
     let (Some(first), Some(last)) = (corners.first(), corners.last()) else {
         return rehearsal.end(0.0);
     };
@@ -94,13 +95,13 @@ pub(super) fn play(corners: Vec<Point2>, stage: &PlayStage<'_>) -> Result<Played
 
 /// How far the rover's centre is from a line during a tick's arc, at most, metres. The distance from a line is convex,
 /// so along the chord it is greatest at an end, and the arc strays from its chord by no more than the sagitta.
-fn strays(line: &Line, arc: &RustyArc) -> f64 {
+fn strays(line: &StraightPiece, arc: &RustyArc) -> f64 {
     let ends = [0.0, 1.0].map(|s| line.distance(arc.at(s).position()));
     greater(ends[0], ends[1]) + arc.sagitta(0, 0.0, 1.0)
 }
 
 /// The channels for the next tick on a line; `None` at its end.
-fn channels(rover: &Rusty, line: &Line, q: &Pose2) -> Option<[i16; 2]> {
+fn channels(rover: &Rusty, line: &StraightPiece, q: &Pose2) -> Option<[i16; 2]> {
     let (ahead, left) = line.seen(q.position());
     let remaining = line.length - ahead;
     let d = line.to - q.position();

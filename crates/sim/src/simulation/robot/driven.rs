@@ -1,4 +1,4 @@
-//! `Driven`, what an input may change about a robot.
+//! `InputTarget`, what an input may change about a robot.
 
 use super::simulated::canonical;
 use crate::run::{Quantized, RobotInput};
@@ -9,7 +9,7 @@ use motion_lab_core::robots::Robot;
 
 /// Why an input is refused, of a robot with configurations `C`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Refused<C> {
+pub(crate) enum InputRefused<C> {
     /// Its kind takes no such input.
     NotTaken,
     /// A channel is out of range.
@@ -27,14 +27,14 @@ type Accepted<R> = (DriveMode<R>, Option<<R as Robot>::Configuration>);
 
 /// What an input may change about a robot.
 #[derive(Clone, Debug)]
-pub(crate) struct Driven<R: SimulatedRobot> {
+pub(crate) struct InputTarget<R: SimulatedRobot> {
     pub(crate) q: R::Configuration,
     pub(crate) mode: DriveMode<R>,
     /// Its own state.
     pub(crate) extra: Extra,
 }
 
-impl<R: SimulatedRobot> Driven<R> {
+impl<R: SimulatedRobot> InputTarget<R> {
     /// The robot after an input, and why the input was refused, if it was. A refused one is counted.
     pub(crate) fn after<'a>(
         self,
@@ -42,14 +42,14 @@ impl<R: SimulatedRobot> Driven<R> {
         tour: &R::Tour,
         input: &RobotInput,
         surroundings: impl Fn() -> Surroundings<'a>,
-    ) -> (Self, Option<Refused<R::Configuration>>) {
-        let Driven { q, mode, mut extra } = self;
+    ) -> (Self, Option<InputRefused<R::Configuration>>) {
+        let InputTarget { q, mode, mut extra } = self;
         let fits = |q: &R::Configuration| {
             let robot = robot.fitted(q);
             if !robot.is_within_limits(q) {
-                return Err(Refused::Limits);
+                return Err(InputRefused::Limits);
             }
-            if surroundings().intersects(&robot.footprint(q)) { Err(Refused::Touches(*q)) } else { Ok(()) }
+            if surroundings().intersects(&robot.footprint(q)) { Err(InputRefused::Touches(*q)) } else { Ok(()) }
         };
         let (after, put, refused) = match accepted(robot, &q, &mode, input, fits) {
             Ok((after, put)) => (after, put, None),
@@ -58,7 +58,7 @@ impl<R: SimulatedRobot> Driven<R> {
         if mode.manual && !after.manual {
             robot.resume(tour, &q, &surroundings(), &mut extra);
         }
-        (Driven { q: put.unwrap_or(q), mode: after, extra }, refused)
+        (InputTarget { q: put.unwrap_or(q), mode: after, extra }, refused)
     }
 }
 
@@ -68,11 +68,11 @@ fn accepted<R: SimulatedRobot>(
     q: &R::Configuration,
     mode: &DriveMode<R>,
     input: &RobotInput,
-    fits: impl Fn(&R::Configuration) -> Result<(), Refused<R::Configuration>>,
-) -> Result<Accepted<R>, Refused<R::Configuration>> {
+    fits: impl Fn(&R::Configuration) -> Result<(), InputRefused<R::Configuration>>,
+) -> Result<Accepted<R>, InputRefused<R::Configuration>> {
     let values = |c: &[Quantized]| c.iter().map(|c| c.value()).collect::<Coordinates>();
     let configuration_at = |c: &[Quantized]| {
-        let there = robot.configuration_at(q, &values(c)).ok_or(Refused::Coordinates(c.len()))?;
+        let there = robot.configuration_at(q, &values(c)).ok_or(InputRefused::Coordinates(c.len()))?;
         Ok(canonical(&there))
     };
     let taken_over = DriveMode { manual: true, ..*mode };
@@ -84,21 +84,21 @@ fn accepted<R: SimulatedRobot>(
         RobotInput::Drive(a, b) => {
             let channels = [*a, *b];
             if channels.iter().any(|c| !(-128..=128).contains(c)) {
-                return Err(Refused::Channel);
+                return Err(InputRefused::Channel);
             }
-            robot.driven([0.0; 2]).ok_or(Refused::NotTaken)?;
+            robot.driven([0.0; 2]).ok_or(InputRefused::NotTaken)?;
             Ok((DriveMode { channels, target: None, ..taken_over }, None))
         }
         RobotInput::MoveTo(target) => {
             // one that goes nowhere says so, whatever the coordinates
-            robot.toward(q, q).ok_or(Refused::NotTaken)?;
+            robot.toward(q, q).ok_or(InputRefused::NotTaken)?;
             let target = configuration_at(target)?;
-            robot.toward(q, &target).ok_or(Refused::NotTaken)?;
+            robot.toward(q, &target).ok_or(InputRefused::NotTaken)?;
             Ok((DriveMode { target: Some(target), ..taken_over }, None))
         }
         RobotInput::Teleport(to) => put(configuration_at(to)?),
         RobotInput::SetTrailer(on) => {
-            let to = canonical(&robot.with_trailer_set(q, *on).ok_or(Refused::NotTaken)?);
+            let to = canonical(&robot.with_trailer_set(q, *on).ok_or(InputRefused::NotTaken)?);
             if to == *q { Ok((taken_over, None)) } else { put(to) }
         }
         RobotInput::Release => Ok((DriveMode { refusals: mode.refusals, ..DriveMode::default() }, None)),

@@ -4,15 +4,15 @@ use std::cell::OnceCell;
 
 use bevy::prelude::*;
 
-use super::driven::Driven;
+use super::driven::InputTarget;
 use super::refusal::InputRefusal;
 use super::simulated::canonical;
 use crate::run::{RobotInput, RobotState};
 use crate::simulation::past::trail::Gauges;
-use crate::simulation::tick::sweep::{CutMotion, Sweep};
+use crate::simulation::tick::sweep::{CoveredSet, CutMotion};
 use crate::simulation::{
-    Configuration, Contacts, Cut, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel,
-    RobotName, RobotView, Route, SimulatedRobot, SimulatedWorld, TickMotion, WorldScene,
+    Configuration, Contacts, Cut, DrawnTour, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId,
+    RobotModel, RobotName, RobotView, SimulatedRobot, SimulatedWorld, TickMotion, WorldScene,
 };
 use motion_lab_core::collision::Surroundings;
 use motion_lab_core::configuration::{Configuration as _, Coordinates};
@@ -33,7 +33,7 @@ pub struct RobotOps {
     pub(crate) mount_pose: fn(&World, Entity) -> Option<Pose2>,
     /// Calls the last argument with the sweep of the robot's cut motion in this tick, and the parameter at which it is
     /// cut. Without a motion it does nothing.
-    pub(crate) with_sweep: fn(&World, Entity, &mut dyn FnMut(&dyn Sweep, f64)),
+    pub(crate) with_sweep: fn(&World, Entity, &mut dyn FnMut(&dyn CoveredSet, f64)),
     /// Whether a run that has a sensor of its own gives the robot one.
     pub(crate) senses: fn(&World, Entity) -> bool,
     /// The robot's state.
@@ -79,7 +79,7 @@ fn mount_pose<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Pose2> {
     Some(world.get::<RobotModel<R>>(e)?.0.mount_pose(&world.get::<Configuration<R>>(e)?.0))
 }
 
-fn with_sweep<R: SimulatedRobot>(world: &World, e: Entity, visit: &mut dyn FnMut(&dyn Sweep, f64)) {
+fn with_sweep<R: SimulatedRobot>(world: &World, e: Entity, visit: &mut dyn FnMut(&dyn CoveredSet, f64)) {
     if let (Some(TickMotion(Some(motion))), Some(cut)) = (world.get::<TickMotion<R>>(e), world.get::<Cut<R>>(e)) {
         visit(&CutMotion { motion, until: cut.until }, cut.until);
     }
@@ -97,14 +97,14 @@ fn apply<R: SimulatedRobot>(
     others: &dyn Fn(&World) -> Vec<Placed>,
 ) -> Option<InputRefusal> {
     let (after, refused) = (|| {
-        let (model, route) = (world.get::<RobotModel<R>>(e)?, world.get::<Route<R>>(e)?);
+        let (model, route) = (world.get::<RobotModel<R>>(e)?, world.get::<DrawnTour<R>>(e)?);
         let (q, mode) = (world.get::<Configuration<R>>(e)?.0, *world.get::<DriveMode<R>>(e)?);
         let extra = world.get::<OwnState<R>>(e)?.extra.clone();
         let scene = &world.get::<WorldScene>(world.get::<ResidesIn>(e)?.0)?.0;
         // most inputs need no others
         let parts = OnceCell::new();
         let surroundings = || Surroundings { scene, others: parts.get_or_init(|| others(world)) };
-        let (after, refused) = Driven { q, mode, extra }.after(&model.0, &route.0, input, surroundings);
+        let (after, refused) = InputTarget { q, mode, extra }.after(&model.0, &route.0, input, surroundings);
         Some((after, refused.map(|why| InputRefusal::of(why, input.kind(), &model.0, &surroundings()))))
     })()?;
     let mut robot = world.entity_mut(e);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::spawn::{SpawnRequest, spawn_robot};
-use crate::simulation::schedule::{CrowdSystems, KindSystems, Phase};
+use crate::simulation::schedule::{CrowdSystems, KindSystems, TickPhase};
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, state};
 use motion_lab_core::configuration::{Configuration as _, Kinds, RobotKind};
@@ -127,10 +127,10 @@ fn install<R: SimulatedRobot>(world: &mut World) {
         SimulationSchedule,
         (
             drive::drive::<R>.in_set(KindSystems::Drive(number)).in_set(SimulationSystems::Drive),
-            drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(Phase::Plan),
-            settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(Phase::Cut),
-            settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(Phase::Settle),
-            state::encode::<R>.in_set(KindSystems::Encode(number)).in_set(Phase::Encode).in_set(CrowdSystems),
+            drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(TickPhase::Plan),
+            settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(TickPhase::Cut),
+            settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(TickPhase::Settle),
+            state::encode::<R>.in_set(KindSystems::Encode(number)).in_set(TickPhase::Encode).in_set(CrowdSystems),
         ),
     );
 }

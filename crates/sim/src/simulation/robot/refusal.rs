@@ -1,6 +1,6 @@
 //! `InputRefusal`, why a robot refused an input.
 
-use super::driven::Refused;
+use super::driven::InputRefused;
 use crate::simulation::SimulatedRobot;
 use motion_lab_core::collision::{Collision, Surroundings};
 use motion_lab_core::configuration::InputKind;
@@ -29,17 +29,17 @@ pub enum InputRefusal {
 impl InputRefusal {
     /// The reason, with the name of what the robot would touch among its surroundings.
     pub(crate) fn of<R: SimulatedRobot>(
-        why: Refused<R::Configuration>,
+        why: InputRefused<R::Configuration>,
         input: InputKind,
         robot: &R,
         surroundings: &Surroundings<'_>,
     ) -> Self {
         match why {
-            Refused::NotTaken => InputRefusal::NotTaken(input),
-            Refused::Channel => InputRefusal::Channel,
-            Refused::Coordinates(given) => InputRefusal::Coordinates(given),
-            Refused::Limits => InputRefusal::Limits,
-            Refused::Touches(q) => {
+            InputRefused::NotTaken => InputRefusal::NotTaken(input),
+            InputRefused::Channel => InputRefusal::Channel,
+            InputRefused::Coordinates(given) => InputRefusal::Coordinates(given),
+            InputRefused::Limits => InputRefusal::Limits,
+            InputRefused::Touches(q) => {
                 let touched = surroundings.witness(&robot.fitted(&q).footprint(&q)).filter(|w| w.dist == 0.0);
                 let name = touched.and_then(|w| surroundings.scene.obstacle_name(w.obstacle));
                 InputRefusal::Touches(name.unwrap_or("another robot").to_owned())

@@ -1,10 +1,10 @@
 //! `Replicas`, many runs of one robot, each alone in its copy of a world, stepped together.
 
 use crate::run::{DT, Frame, RobotInput, RobotScan};
-use crate::simulation::robot::driven::Driven;
+use crate::simulation::robot::driven::InputTarget;
 use crate::simulation::robot::ops::state_of;
-use crate::simulation::robot::spawn::{Ready, routes, slip, tour};
-use crate::simulation::sensors::scanners::{Desk, Scanners};
+use crate::simulation::robot::spawn::{SpawnableRobot, routes, slip, tour};
+use crate::simulation::sensors::scanners::{ScanMemory, Scanners};
 use crate::simulation::sensors::start::beam;
 use crate::simulation::tick::drive::Driver;
 use crate::simulation::tick::parallel::each;
@@ -46,7 +46,7 @@ use motion_lab_core::worlds::{BeamModel, Resident, World};
 /// # Ok::<(), motion_lab_sim::simulation::SpawnError>(())
 /// ```
 pub struct Replicas<R: SimulatedRobot> {
-    stage: Stage<R>,
+    stage: SharedStage<R>,
     replicas: Vec<Replica<R>>,
     /// The ranges of all replicas, one after the other.
     ranges: Vec<f64>,
@@ -54,7 +54,7 @@ pub struct Replicas<R: SimulatedRobot> {
 }
 
 /// What the replicas share.
-struct Stage<R: SimulatedRobot> {
+struct SharedStage<R: SimulatedRobot> {
     robot: R,
     resident: Resident,
     start: R::Configuration,
@@ -70,7 +70,7 @@ struct Replica<R: SimulatedRobot> {
     tour: R::Tour,
     slip: Stream,
     beam: Stream,
-    robot: Driven<R>,
+    robot: InputTarget<R>,
     contacts: Contacts<R>,
 }
 
@@ -87,15 +87,15 @@ impl<R: SimulatedRobot> Replicas<R> {
         sensor: Option<RangeSensor>,
         seeds: impl IntoIterator<Item = Seed>,
     ) -> Result<Self, SpawnError> {
-        let Ready { robot, q, noise } = Ready::new(model, resident, world)?;
+        let SpawnableRobot { robot, q, noise } = SpawnableRobot::new(model, resident, world)?;
         let rays = sensor.filter(|_| robot.sensor_pose(&q).is_some()).map(FanSensor::from);
         let (world, scene) = (world.clone(), Scene::of_world(world));
-        let stage = Stage { robot, resident: resident.clone(), start: q, world, scene, rays, noise };
+        let stage = SharedStage { robot, resident: resident.clone(), start: q, world, scene, rays, noise };
         let replicas: Vec<Replica<R>> =
             seeds.into_iter().map(|seed| stage.replica(seed)).collect::<Result<_, SpawnError>>()?;
         let ranges = vec![0.0; stage.n_rays() * replicas.len()];
         let mut all = Replicas { stage, replicas, ranges, scanners: Scanners::default() };
-        all.each(Stage::sense);
+        all.each(SharedStage::sense);
         Ok(all)
     }
 
@@ -171,18 +171,18 @@ impl<R: SimulatedRobot> Replicas<R> {
 
     /// The frame of a replica: that of a run of its seed in the same world with this robot alone.
     pub fn frame(&self, replica: usize) -> Frame {
-        let Replica { tick, robot: Driven { q, mode, extra }, contacts, .. } = &self.replicas[replica];
+        let Replica { tick, robot: InputTarget { q, mode, extra }, contacts, .. } = &self.replicas[replica];
         let state = state_of(RobotId(0), q, &OwnState::new(extra.clone()), mode, contacts);
         let scan = self.stage.rays.map(|_| RobotScan { robot: 0, ranges: self.ranges(replica).into() });
         Frame { tick: *tick, robots: vec![state], scans: scan.into_iter().collect(), obstacles: Vec::new() }
     }
 
     /// Does work for every replica, with its ranges.
-    fn each(&mut self, work: impl Fn(&Stage<R>, &mut Replica<R>, &mut [f64], &mut Desk) + Send + Sync) {
+    fn each(&mut self, work: impl Fn(&SharedStage<R>, &mut Replica<R>, &mut [f64], &mut ScanMemory) + Send + Sync) {
         let Replicas { stage, replicas, ranges, scanners } = self;
         let (stage, n) = (&*stage, stage.n_rays());
         if n == 0 {
-            each(replicas.iter_mut(), Desk::default, |desk, replica| work(stage, replica, &mut [], desk));
+            each(replicas.iter_mut(), ScanMemory::default, |desk, replica| work(stage, replica, &mut [], desk));
         } else {
             let items = replicas.iter_mut().zip(ranges.chunks_mut(n));
             each(
@@ -196,28 +196,28 @@ impl<R: SimulatedRobot> Replicas<R> {
     }
 }
 
-impl<R: SimulatedRobot> Stage<R> {
+impl<R: SimulatedRobot> SharedStage<R> {
     fn n_rays(&self) -> usize {
         self.rays.map_or(0, |rays| rays.sensor.n_rays as usize)
     }
 
     /// The run of a seed at tick 0.
     fn replica(&self, seed: Seed) -> Result<Replica<R>, SpawnError> {
-        let Stage { robot, resident, start, world, .. } = self;
+        let SharedStage { robot, resident, start, world, .. } = self;
         let routes = routes(world, seed)?;
         Ok(Replica {
             tick: 0,
             tour: tour(robot, seed, (world, &routes), resident, start)?,
             slip: slip(seed, &resident.name),
             beam: Stream::new(seed, &beam(&resident.name)),
-            robot: Driven { q: *start, mode: DriveMode::default(), extra: robot.initial_extra() },
+            robot: InputTarget { q: *start, mode: DriveMode::default(), extra: robot.initial_extra() },
             contacts: Contacts::default(),
         })
     }
 
     /// A tick up to its scan: the phases of the schedule, for a robot without others.
     fn advance(&self, replica: &mut Replica<R>) {
-        let Replica { tick, tour, slip, robot: Driven { q, mode, extra }, contacts, .. } = replica;
+        let Replica { tick, tour, slip, robot: InputTarget { q, mode, extra }, contacts, .. } = replica;
         *tick += 1;
         let control = Driver { robot: &self.robot, tour, slip, mode }.control(*tick, q, extra);
         let motion = self.robot.fitted(q).drive(q, &control, DT).ok();
@@ -234,7 +234,7 @@ impl<R: SimulatedRobot> Stage<R> {
     }
 
     /// The scan at the end of a tick.
-    fn sense(&self, replica: &mut Replica<R>, ranges: &mut [f64], desk: &mut Desk) {
+    fn sense(&self, replica: &mut Replica<R>, ranges: &mut [f64], desk: &mut ScanMemory) {
         if let Some(rays) = self.rays {
             let pose = self.robot.mount_pose(&replica.robot.q);
             desk.at(0, rays).0.scan_into(&self.scene, &[], &pose, ranges);

@@ -5,8 +5,8 @@ use bevy::prelude::*;
 use super::simulated::canonical;
 use crate::simulation::sensors::OfConfiguration;
 use crate::simulation::{
-    Configuration, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, RobotOps,
-    Route, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
+    Configuration, DrawnTour, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName,
+    RobotOps, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
 };
 use crate::tour::{ConfigError, RouteTours};
 use motion_lab_core::configuration::{Configuration as _, RobotKind, SizesError};
@@ -37,7 +37,7 @@ fn sized<R: SimulatedRobot>(model: &R, resident: &Resident) -> Result<R, SizesEr
 }
 
 /// A robot that can be spawned.
-pub(crate) struct Ready<R: SimulatedRobot> {
+pub(crate) struct SpawnableRobot<R: SimulatedRobot> {
     /// The robot, with the resident's own sizes.
     pub(crate) robot: R,
     /// Where it starts.
@@ -46,7 +46,7 @@ pub(crate) struct Ready<R: SimulatedRobot> {
     pub(crate) noise: Option<BeamModel>,
 }
 
-impl<R: SimulatedRobot> Ready<R> {
+impl<R: SimulatedRobot> SpawnableRobot<R> {
     /// The robot that a resident of a world is, of a kind with this model.
     pub(crate) fn new(model: &R, resident: &Resident, world: &WorldModel) -> Result<Self, SpawnError> {
         let (name, world) = (|| resident.name.clone(), || world.name.clone());
@@ -66,7 +66,7 @@ impl<R: SimulatedRobot> Ready<R> {
         }
         let noise = resident.sensor.map(|noise| noise.try_new()).transpose();
         let noise = noise.map_err(|source| SpawnError::Noise { robot: name(), world: world(), source })?;
-        Ok(Ready { robot, q, noise })
+        Ok(SpawnableRobot { robot, q, noise })
     }
 }
 
@@ -114,7 +114,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
     request: &SpawnRequest,
 ) -> Result<Entity, SpawnError> {
     let resident = request.resident;
-    let Ready { robot, q, noise } = Ready::new(model, resident, request.model)?;
+    let SpawnableRobot { robot, q, noise } = SpawnableRobot::new(model, resident, request.model)?;
     let tour = tour(&robot, request.seed, (request.model, request.routes), resident, &q)?;
     let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
     let entity = world
@@ -123,7 +123,7 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
             Configuration::<R>(q),
             PreviousConfiguration::<R>(q),
             OwnState::<R>::new(robot.initial_extra()),
-            Route::<R>(tour),
+            DrawnTour::<R>(tour),
             Slip(slip(request.seed, &resident.name)),
             ops,
             request.id,

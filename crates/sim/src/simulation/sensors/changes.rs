@@ -9,15 +9,15 @@ use super::start::robot_of;
 use crate::simulation::{MountedOn, SensorModel, SensorMount, SensorName, SensorNoise};
 
 /// The components that say what a sensor is.
-type Parts = (SensorModel, SensorName, SensorMount, SensorNoise, MountedOn);
+type SensorParts = (SensorModel, SensorName, SensorMount, SensorNoise, MountedOn);
 
 /// A part of a sensor was inserted.
-pub fn changed(on: On<Insert, Parts>, world: DeferredWorld) {
+pub fn changed(on: On<Insert, SensorParts>, world: DeferredWorld) {
     note(world, on.entity);
 }
 
 /// A part of a sensor was removed or replaced, or the sensor despawned.
-pub fn removed(on: On<Discard, Parts>, world: DeferredWorld) {
+pub fn removed(on: On<Discard, SensorParts>, world: DeferredWorld) {
     note(world, on.entity);
 }
 

@@ -12,7 +12,7 @@ use motion_lab_core::random::Stream;
 use motion_lab_core::sensors::{BeamModel, FanSensor, RangeSensor};
 
 /// Largest number of refusals that are kept.
-const MOST_REFUSED: usize = 1000;
+const MAX_REFUSED: usize = 1000;
 
 /// The sensors of the run by their robots' ids, then by the bytes of their names. They are those of the sensor entities
 /// there are when the run leaves tick 0, whoever spawned them and in whatever order, and fixed from then on.
@@ -68,7 +68,7 @@ impl SensorRoster {
 
     /// Notes a refusal. Returns whether it is new.
     pub(super) fn refuse(&mut self, refused: &SensorRefused) -> bool {
-        let new = self.refused.len() < MOST_REFUSED && !self.refused.contains(refused);
+        let new = self.refused.len() < MAX_REFUSED && !self.refused.contains(refused);
         if new {
             self.refused.push(refused.clone());
         }

@@ -2,26 +2,26 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use crate::simulation::tick::crowd::Room;
+use crate::simulation::tick::crowd::NeighbourMemory;
 use motion_lab_core::sensors::{FanSensor, Scanner};
 
 /// Desks, each of which one thread works at. They are kept from tick to tick.
 #[derive(Debug, Default)]
-pub(crate) struct Scanners(Mutex<Vec<Desk>>);
+pub(crate) struct Scanners(Mutex<Vec<ScanMemory>>);
 
 /// What a thread needs to scan.
 #[derive(Debug, Default)]
-pub(crate) struct Desk {
+pub(crate) struct ScanMemory {
     /// A scanner for each pattern of rays, made when it is first needed.
     scanners: Vec<Option<Box<Scanner>>>,
     /// The robots that a sensor sees.
-    pub(crate) room: Room,
+    pub(crate) room: NeighbourMemory,
 }
 
 /// A desk that goes back when its thread is done.
 pub(crate) struct Borrowed<'a> {
     scanners: &'a Scanners,
-    pub(crate) desk: Desk,
+    pub(crate) desk: ScanMemory,
 }
 
 impl Scanners {
@@ -39,9 +39,9 @@ impl Drop for Borrowed<'_> {
     }
 }
 
-impl Desk {
+impl ScanMemory {
     /// The scanner for the rays of pattern number `fan`, and the room for what it sees.
-    pub(crate) fn at(&mut self, fan: usize, rays: FanSensor) -> (&mut Scanner, &mut Room) {
+    pub(crate) fn at(&mut self, fan: usize, rays: FanSensor) -> (&mut Scanner, &mut NeighbourMemory) {
         if self.scanners.len() <= fan {
             self.scanners.resize(fan + 1, None);
         }

@@ -19,7 +19,7 @@ const APRON: f64 = 1e-3;
 pub struct Crowd {
     /// The id of the first robot.
     first: u32,
-    bodies: Vec<Option<Body>>,
+    bodies: Vec<Option<CrowdBody>>,
     /// The boxes of all that the robots with a body may touch in the tick.
     reaches: Vec<Aabb>,
     /// The places in `bodies` of those robots.
@@ -30,7 +30,7 @@ pub struct Crowd {
 }
 
 /// A robot in a tick.
-struct Body {
+struct CrowdBody {
     /// Its parts at the start of the tick; once it is settled, at the end.
     parts: SmallVec<[Placed; 3]>,
     /// The box around the parts at the start.
@@ -57,7 +57,7 @@ impl Crowd {
     pub fn put(&mut self, id: u32, footprint: &Footprint, bound: f64) {
         let place = id - self.first;
         let Some(body) = self.bodies.get_mut(place as usize) else { return };
-        let body = body.get_or_insert_with(Body::nowhere);
+        let body = body.get_or_insert_with(CrowdBody::nowhere);
         body.take(footprint);
         (body.start, body.reach) = (EVERYWHERE, EVERYWHERE);
         if !(bound.is_finite() && body.parts.iter().all(Placed::is_valid)) {
@@ -82,7 +82,7 @@ impl Crowd {
     }
 
     /// Calls `visit` with the place of every robot but this whose reach comes within `range` metres of a box.
-    fn each_near(&self, id: u32, of: &Aabb, range: f64, mut visit: impl FnMut(u32, &Body)) {
+    fn each_near(&self, id: u32, of: &Aabb, range: f64, mut visit: impl FnMut(u32, &CrowdBody)) {
         let own = id - self.first;
         let mut call = |place: u32| {
             if let Some(Some(body)) = self.bodies.get(place as usize).filter(|_| place != own) {
@@ -106,7 +106,7 @@ impl Crowd {
     }
 
     /// Writes the parts of the other robots that this one may touch in the tick where they stood at its start.
-    pub fn others(&self, id: u32, room: &mut Room) {
+    pub fn others(&self, id: u32, room: &mut NeighbourMemory) {
         room.clear();
         let Some(reach) = self.reach(id) else { return };
         self.each_near(id, reach, 0.0, |place, body| {
@@ -124,7 +124,7 @@ impl Crowd {
         id: u32,
         from: Point2,
         range: f64,
-        room: &'a mut Room,
+        room: &'a mut NeighbourMemory,
     ) -> impl Iterator<Item = &'a Placed> + Clone {
         room.places.clear();
         let point = Aabb { min: from, max: from };
@@ -134,7 +134,7 @@ impl Crowd {
     }
 
     /// Copies the parts of the robots at the places, by ascending id.
-    fn take_parts(&self, room: &mut Room) {
+    fn take_parts(&self, room: &mut NeighbourMemory) {
         room.places.sort_unstable();
         for &place in &room.places {
             let body = self.bodies.get(place as usize).into_iter().flatten();
@@ -143,7 +143,7 @@ impl Crowd {
     }
 
     /// Writes the ids of the robots with a lower one that this robot may meet in the tick.
-    pub fn lower(&self, id: u32, room: &mut Room) {
+    pub fn lower(&self, id: u32, room: &mut NeighbourMemory) {
         room.places.clear();
         let Some(reach) = self.reach(id) else { return };
         self.each_near(id, reach, 0.0, |place, _| {
@@ -172,9 +172,9 @@ impl Crowd {
 const EVERYWHERE: Aabb =
     Aabb { min: Point2::new(f64::NEG_INFINITY, f64::NEG_INFINITY), max: Point2::new(f64::INFINITY, f64::INFINITY) };
 
-impl Body {
+impl CrowdBody {
     fn nowhere() -> Self {
-        Body { parts: SmallVec::new(), start: EVERYWHERE, reach: EVERYWHERE }
+        CrowdBody { parts: SmallVec::new(), start: EVERYWHERE, reach: EVERYWHERE }
     }
 
     fn take(&mut self, footprint: &Footprint) {
@@ -185,14 +185,14 @@ impl Body {
 
 /// Working memory for one robot's neighbours.
 #[derive(Debug, Default)]
-pub struct Room {
+pub struct NeighbourMemory {
     /// The neighbours' parts, by ascending id.
     pub parts: Vec<Placed>,
     /// The neighbours.
     pub places: Vec<u32>,
 }
 
-impl Room {
+impl NeighbourMemory {
     /// Forgets the neighbours.
     pub fn clear(&mut self) {
         self.parts.clear();

@@ -2,11 +2,11 @@
 
 use bevy::prelude::*;
 
-use super::crowds::Crowds;
 use super::parallel::each;
+use super::world_crowds::WorldCrowds;
 use crate::run::DT;
 use crate::simulation::{
-    Configuration, Control, DriveMode, Extra, OwnState, PreviousConfiguration, RobotId, RobotModel, Route,
+    Configuration, Control, DrawnTour, DriveMode, Extra, OwnState, PreviousConfiguration, RobotId, RobotModel,
     SimulatedRobot, Slip, TickMotion, Transport,
 };
 use motion_lab_core::num::greater;
@@ -52,7 +52,7 @@ impl<R: SimulatedRobot> Driver<'_, R> {
 /// The components of a robot that [`drive`] reads and writes.
 type Driven<R> = (
     &'static RobotModel<R>,
-    &'static Route<R>,
+    &'static DrawnTour<R>,
     &'static Slip,
     &'static DriveMode<R>,
     &'static Configuration<R>,
@@ -85,7 +85,7 @@ type Planned<R> = (
 );
 
 /// Gives every robot of a kind the motion of its control, and those that are not alone in their worlds their bodies.
-pub(crate) fn plan<R: SimulatedRobot>(mut crowds: ResMut<Crowds>, mut robots: Query<Planned<R>>) {
+pub(crate) fn plan<R: SimulatedRobot>(mut crowds: ResMut<WorldCrowds>, mut robots: Query<Planned<R>>) {
     for (&id, RobotModel(robot), Configuration(q), Control(u), mut motion) in &mut robots {
         let robot = robot.fitted(q);
         motion.0 = robot.drive(q, u, DT).ok();

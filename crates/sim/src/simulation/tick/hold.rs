@@ -5,7 +5,7 @@ use motion_lab_core::num::{greater, lesser};
 use motion_lab_core::robots::{Beginning, Motion};
 
 /// Least clearance at the end of a blocked motion that starts with at least this clearance, metres.
-pub const LEAST_CLEARANCE: f64 = 1e-5;
+pub const MIN_CLEARANCE: f64 = 1e-5;
 
 /// Clearance that a motion keeps when it starts with more than this, metres.
 pub const MARGIN: f64 = 2e-5;
@@ -31,15 +31,15 @@ pub struct Advance {
 
 /// The clearance that a motion has to keep when it starts with the clearance `start`, metres. It is [`MARGIN`], or for
 /// a nearer start just below `start`, so that the robot may leave and slide along. For a start above
-/// [`LEAST_CLEARANCE`] it is never below that.
+/// [`MIN_CLEARANCE`] it is never below that.
 ///
 /// A start nearer than that is possible only where a robot was put there; it too has to keep a
 /// little less than its own clearance.
 pub fn margin_from(start: f64) -> f64 {
     if start > MARGIN + WEAR {
         MARGIN
-    } else if start >= LEAST_CLEARANCE + 0.01 * WEAR {
-        greater(LEAST_CLEARANCE, start - WEAR)
+    } else if start >= MIN_CLEARANCE + 0.01 * WEAR {
+        greater(MIN_CLEARANCE, start - WEAR)
     } else {
         start - lesser(WEAR, 0.5 * start)
     }
@@ -134,7 +134,7 @@ mod tests {
             blocked += usize::from(a.blocked);
         }
         let clearance = -q.x - RUSTY.body_radius;
-        assert!((LEAST_CLEARANCE..=1e-4).contains(&clearance), "{clearance}");
+        assert!((MIN_CLEARANCE..=1e-4).contains(&clearance), "{clearance}");
         // 0.89 m at 3 cm a tick: 29 free ticks, then held for good
         assert_eq!(blocked, 100 - 29);
     }
@@ -154,7 +154,7 @@ mod tests {
                 if a.blocked {
                     held_rusty += 1;
                     let c = scene.distance(&RUSTY.footprint(&q));
-                    assert!((LEAST_CLEARANCE..=1e-4).contains(&c), "held at {c}");
+                    assert!((MIN_CLEARANCE..=1e-4).contains(&c), "held at {c}");
                     let back = RUSTY.drive(&q, &RustyCmd { v: -u.v, omega: -u.omega }, 0.05).unwrap();
                     assert!(!advance(&scene, &back).blocked, "{q} {u:?}");
                     break;
@@ -174,7 +174,7 @@ mod tests {
                 if a.blocked {
                     held_car += 1;
                     let c = scene.distance(&car.footprint(&q));
-                    assert!((LEAST_CLEARANCE..=1e-4).contains(&c), "held at {c}");
+                    assert!((MIN_CLEARANCE..=1e-4).contains(&c), "held at {c}");
                     let back = car.drive(&q, &CarCmd { v: -u.v, phi: u.phi }, 0.05).unwrap();
                     assert!(!advance(&scene, &back).blocked, "{q} {u:?}");
                     break;
@@ -219,7 +219,7 @@ mod tests {
         let surroundings = Surroundings { scene: &scene, others: std::slice::from_ref(&other) };
         let a = advance(&surroundings, &motion);
         let gap = -2.77 - motion.at(a.until).x - 2.0 * RUSTY.body_radius;
-        assert!(a.blocked && (LEAST_CLEARANCE..=1e-4).contains(&gap), "{gap}");
+        assert!(a.blocked && (MIN_CLEARANCE..=1e-4).contains(&gap), "{gap}");
     }
 
     #[test]
@@ -228,7 +228,7 @@ mod tests {
         while c < 1e-3 {
             let m = margin_from(c);
             assert!(m < c && m > 0.0);
-            assert!(c < LEAST_CLEARANCE + 1e-12 || m >= LEAST_CLEARANCE);
+            assert!(c < MIN_CLEARANCE + 1e-12 || m >= MIN_CLEARANCE);
             c *= 1.003;
         }
     }

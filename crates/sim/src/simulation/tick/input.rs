@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::crowds::others_now;
+use super::world_crowds::others_now;
 use crate::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
 use crate::simulation::obstacles::change::{self, RefusedChanges};
 use crate::simulation::{Refusals, RefusedEvent, RefusedInput, ResidesIn, RobotId, RobotOps, Roster, Transport};

@@ -1,7 +1,6 @@
 //! The systems of a tick: input, drive, cut, settle, sense.
 
 pub(crate) mod crowd;
-pub(crate) mod crowds;
 pub(crate) mod drive;
 pub(crate) mod hold;
 pub(crate) mod input;
@@ -10,6 +9,7 @@ pub(crate) mod refusals;
 pub(crate) mod sense;
 pub(crate) mod settle;
 pub(crate) mod sweep;
+pub(crate) mod world_crowds;
 
 #[cfg(test)]
 mod tests;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::crowds::{Crowds, stand};
 use super::parallel::each;
+use super::world_crowds::{WorldCrowds, stand};
 use crate::run::RobotScan;
 use crate::simulation::sensors::roster::RunSensor;
-use crate::simulation::sensors::scanners::{Desk, Scanners};
+use crate::simulation::sensors::scanners::{ScanMemory, Scanners};
 use crate::simulation::{LatestFrame, ResidesIn, RobotId, Scan, SensorRoster, Transport, WorldScene};
 
 /// Scans from where the robots are now, outside a tick.
@@ -51,7 +51,12 @@ fn hand_over(world: &mut World, sensor: &RunSensor, ranges: Arc<[f64]>) {
 
 /// Runs one sensor's scan, into the memory of its last one unless another frame holds it. `None` where its robot is
 /// gone, which changes nothing.
-fn scan(world: &World, sensor: &RunSensor, desk: &mut Desk, RobotScan { robot, ranges }: &mut RobotScan) -> Option<()> {
+fn scan(
+    world: &World,
+    sensor: &RunSensor,
+    desk: &mut ScanMemory,
+    RobotScan { robot, ranges }: &mut RobotScan,
+) -> Option<()> {
     let rays = sensor.rays.sensor;
     *robot = sensor.id;
     if ranges.len() != rays.n_rays as usize {
@@ -61,7 +66,7 @@ fn scan(world: &World, sensor: &RunSensor, desk: &mut Desk, RobotScan { robot, r
     let scene = &world.get::<WorldScene>(world.get::<ResidesIn>(sensor.robot)?.0)?.0;
     let ranges = Arc::make_mut(ranges);
     let (scanner, room) = desk.at(sensor.fan, sensor.rays);
-    match world.resource::<Crowds>().of(RobotId(sensor.id)) {
+    match world.resource::<WorldCrowds>().of(RobotId(sensor.id)) {
         Some(crowd) => {
             let others = crowd.seen(sensor.id, pose.position(), rays.max_range, room);
             scanner.scan_among(scene, others, &pose, ranges);

@@ -2,10 +2,10 @@
 
 use bevy::prelude::*;
 
-use super::crowd::Room;
-use super::crowds::Crowds;
+use super::crowd::NeighbourMemory;
 use super::hold::{self, Advance};
 use super::parallel::each;
+use super::world_crowds::WorldCrowds;
 use crate::simulation::robot::simulated::canonical;
 use crate::simulation::{
     Configuration, Contacts, Control, Cut, CutOf, DriveMode, ResidesIn, RobotId, RobotModel, SceneRevision,
@@ -32,11 +32,11 @@ type CutRobot<R> = (
 /// Cuts every motion of a kind at the walls and at all other robots' starting footprints. A robot without others near
 /// keeps its last cut while its configuration, its control and the scene stay the same.
 pub(crate) fn cut<R: SimulatedRobot>(
-    crowds: Res<Crowds>,
+    crowds: Res<WorldCrowds>,
     scenes: Query<(&WorldScene, &SceneRevision)>,
     mut robots: Query<CutRobot<R>>,
 ) {
-    each(robots.iter_mut(), Room::default, |room, (&id, inhabited, q, u, motion, mut cut)| {
+    each(robots.iter_mut(), NeighbourMemory::default, |room, (&id, inhabited, q, u, motion, mut cut)| {
         let (Some(motion), Ok((WorldScene(scene), &revision))) = (&motion.0, scenes.get(inhabited.0)) else {
             *cut = Cut::new(0.0, false);
             return;
@@ -77,7 +77,7 @@ type Settled<R> = (
 
 /// Advances every robot of a kind along its cut motion, and counts contacts. A motion that meets the cut motion of a
 /// robot with a lower id in its world is in contact; a robot that contact holds then stays where it started.
-pub(crate) fn settle<R: SimulatedRobot>(mut crowds: ResMut<Crowds>, mut robots: Query<Settled<R>>) {
+pub(crate) fn settle<R: SimulatedRobot>(mut crowds: ResMut<WorldCrowds>, mut robots: Query<Settled<R>>) {
     for (&id, RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in &mut robots {
         let met = motion.is_some() && crowds.has_met(id);
         if let Some(motion) = motion {

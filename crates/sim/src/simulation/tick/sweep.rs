@@ -8,7 +8,7 @@ use motion_lab_core::robots::Motion;
 const LEVELS: u32 = 6;
 
 /// The set that a robot's cut motion covers, its type forgotten.
-pub trait Sweep: Send + Sync {
+pub trait CoveredSet: Send + Sync {
     /// The number of the footprint's parts.
     fn parts(&self) -> usize;
 
@@ -29,7 +29,7 @@ pub struct CutMotion<'a, M> {
     pub until: f64,
 }
 
-impl<M: Motion + Send + Sync> Sweep for CutMotion<'_, M> {
+impl<M: Motion + Send + Sync> CoveredSet for CutMotion<'_, M> {
     fn parts(&self) -> usize {
         self.motion.footprint_at(0.0).parts().len()
     }
@@ -49,14 +49,14 @@ impl<M: Motion + Send + Sync> Sweep for CutMotion<'_, M> {
 /// Whether two sweeps come within `margin` metres of one another. Conservative: never `false` for sweeps that do.
 ///
 /// The whole of one sweep is compared with the whole of the other, regardless of when the robots are where.
-pub fn sweeps_meet(a: &dyn Sweep, b: &dyn Sweep, margin: f64) -> bool {
+pub fn sweeps_meet(a: &dyn CoveredSet, b: &dyn CoveredSet, margin: f64) -> bool {
     (0..a.parts()).any(|i| (0..b.parts()).any(|j| pieces_meet((a, i, 0.0, 1.0), (b, j, 0.0, 1.0), margin, LEVELS)))
 }
 
 /// One part of a sweep between two fractions of its motion.
-type Piece<'a> = (&'a dyn Sweep, usize, f64, f64);
+type SweptPiece<'a> = (&'a dyn CoveredSet, usize, f64, f64);
 
-fn pieces_meet(a: Piece, b: Piece, margin: f64, levels: u32) -> bool {
+fn pieces_meet(a: SweptPiece, b: SweptPiece, margin: f64, levels: u32) -> bool {
     if distance(&a.0.cover(a.1, a.2, a.3), &b.0.cover(b.1, b.2, b.3)) > margin {
         return false;
     }
@@ -67,7 +67,7 @@ fn pieces_meet(a: Piece, b: Piece, margin: f64, levels: u32) -> bool {
     [(a0, b0), (a0, b1), (a1, b0), (a1, b1)].into_iter().any(|(a, b)| pieces_meet(a, b, margin, levels - 1))
 }
 
-fn halves((sweep, part, from, to): Piece) -> [Piece; 2] {
+fn halves((sweep, part, from, to): SweptPiece) -> [SweptPiece; 2] {
     let middle = 0.5 * (from + to);
     [(sweep, part, from, middle), (sweep, part, middle, to)]
 }

@@ -2,10 +2,10 @@
 
 use bevy::prelude::*;
 
-use super::crowds::{Crowds, with_sweep};
 use super::hold::margin_from;
 use super::settle::cut_among;
 use super::sweep::sweeps_meet;
+use super::world_crowds::{WorldCrowds, with_sweep};
 use crate::run::{Event, RobotInput, Script};
 use crate::simulation::{
     Cut, LatestFrame, PreviousConfiguration, RobotId, RobotModel, RobotOps, Roster, SimulatedRobot, SimulationPlugin,
@@ -114,7 +114,7 @@ fn compare(world: &World) -> (usize, usize) {
                 });
             }
         });
-        assert_eq!(world.resource::<Crowds>().has_met(RobotId(i as u32)), met, "robot {i} at tick {}", frame.tick);
+        assert_eq!(world.resource::<WorldCrowds>().has_met(RobotId(i as u32)), met, "robot {i} at tick {}", frame.tick);
         meeting += usize::from(met);
         if let Some(scan) = frame.scans.iter().find(|scan| scan.robot == i as u32) {
             let others = parts(now.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, f)| f));

@@ -6,7 +6,7 @@ use crate::window::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at,
 use crate::window::ui::dashboard::doors;
 use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::touch::{pinched, touched};
-use crate::window::ui::{Cockpit, CockpitRobot, Command, LinkedState, Look, Notice, UiState};
+use crate::window::ui::{Cockpit, CockpitRobot, Command, FrameColours, LinkedState, Notice, UiState};
 use motion_lab_core::collision::footprint_distance;
 use motion_lab_core::geometry::{Footprint, Point2, Vector2};
 use motion_lab_core::num::lesser;
@@ -15,7 +15,7 @@ use motion_lab_sim::anatomy::touching_items;
 use motion_lab_sim::simulation::TransportCommand;
 
 /// Side of the area that takes the pointer, points: at least this, and the shorter side of the body.
-const HIT: f32 = 28.0;
+const BODY_TARGET: f32 = 28.0;
 
 /// The robot of a cockpit that is nearest to a point, at most `reach` metres away.
 pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRobot> {
@@ -34,7 +34,7 @@ pub fn bodies<'a>(
     cockpit: &'a Cockpit,
     paper: Rect,
     fit: &Fit,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) -> Option<(&'a CockpitRobot, bool)> {
@@ -183,6 +183,6 @@ fn hit(footprint: &Footprint, paper: Rect, fit: &Fit) -> Option<Rect> {
     let body = footprint.parts().first()?.placed().bounds();
     let [x, y] = fit.screen_from_world(body.centre());
     let side = lesser(body.max.x - body.min.x, body.max.y - body.min.y) * fit.px_per_metre();
-    let square = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat((side as f32).max(HIT)));
+    let square = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat((side as f32).max(BODY_TARGET)));
     Some(square.intersect(paper)).filter(Rect::is_positive)
 }

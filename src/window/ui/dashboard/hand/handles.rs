@@ -8,10 +8,10 @@ use bevy_egui::egui::{
 
 use super::arm::{dragged, handle_name, joints, turned};
 use crate::window::ui::cspace::put_at::to_come;
-use crate::window::ui::number::Typed;
+use crate::window::ui::number::NumberInput;
 use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::touch::pinched;
-use crate::window::ui::{CockpitRobot, Command, Grasp, Look, UiState, keys};
+use crate::window::ui::{CockpitRobot, Command, FrameColours, Grasp, UiState, keys};
 use motion_lab_core::configuration::{Configuration, Coordinates, Tn};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::num::wrap;
@@ -23,7 +23,7 @@ use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
 /// Diameter of a handle, points.
 const DOT: f32 = 10.0;
 /// Diameter of the area that takes a mouse, points. For a fingertip it is as large as any other control.
-const HIT: f32 = 28.0;
+const HANDLE_TARGET: f32 = 28.0;
 /// How far an arrow key turns a joint, radians.
 const NUDGE: f64 = 0.02;
 
@@ -57,7 +57,7 @@ pub fn handles(
     robot: &CockpitRobot,
     paper: Rect,
     fit: &Fit,
-    look: &Look,
+    look: &FrameColours,
     state: &mut UiState,
     commands: &mut Vec<Command>,
 ) {
@@ -69,7 +69,7 @@ pub fn handles(
         let ghost = footprint("target", "where the arm is going", &going, Role::Robot, 0.3);
         canvas::paint(&painter, &over(ghost), fit, look);
     }
-    let on = Paper { painter, fit };
+    let on = HandlePaper { painter, fit };
     for link in 0..points.len().saturating_sub(1) {
         let id = handle_id(robot, link);
         match &state.grasp {
@@ -99,7 +99,7 @@ fn over(items: Vec<Item>) -> Picture {
 }
 
 /// The paper that the handles lie on.
-struct Paper<'a> {
+struct HandlePaper<'a> {
     painter: Painter,
     fit: &'a Fit,
 }
@@ -110,15 +110,15 @@ fn handle(
     robot: &CockpitRobot,
     link: usize,
     points: &[Point2],
-    on: &Paper,
-    look: &Look,
+    on: &HandlePaper,
+    look: &FrameColours,
     commands: &mut Vec<Command>,
 ) -> bool {
-    let (Paper { painter, fit }, links) = (on, points.len() - 1);
+    let (HandlePaper { painter, fit }, links) = (on, points.len() - 1);
     let name = handle_name(link, links);
     let [x, y] = fit.screen_from_world(points[link + 1]);
     let at = pos2(x as f32, y as f32);
-    let size = if ui.spacing().interact_size.y > HIT { ui.spacing().interact_size.y } else { HIT };
+    let size = if ui.spacing().interact_size.y > HANDLE_TARGET { ui.spacing().interact_size.y } else { HANDLE_TARGET };
     let id = handle_id(robot, link);
     // magnified, a joint may lie off the paper: keys still turn it
     let clip = painter.clip_rect();
@@ -199,14 +199,20 @@ fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<
 
 /// Shows the joint angles as numbers to type or drag; for an arm of three links also the slider that keeps its tip in
 /// place.
-pub fn numbers(ui: &mut Ui, robot: &CockpitRobot, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn numbers(
+    ui: &mut Ui,
+    robot: &CockpitRobot,
+    look: &FrameColours,
+    state: &mut UiState,
+    commands: &mut Vec<Command>,
+) {
     let mut to = to_come(robot).clone();
     let mut changed = false;
     ui.horizontal(|ui| {
         ui.spacing_mut().button_padding = [4.0, 1.0].into();
         for (i, angle) in to.iter_mut().enumerate() {
             let label = ui.label(RichText::new(joint_sign(i)).color(look.colour(Role::Text)));
-            let typed = Typed::new(ui, -3.2..=3.2, true);
+            let typed = NumberInput::new(ui, -3.2..=3.2, true);
             let field = DragValue::new(angle).speed(0.01).fixed_decimals(3).range(-3.2..=3.2);
             let field = field.custom_parser(|text| typed.read(text)).update_while_editing(false);
             let response = ui.add(field).labelled_by(label.id);

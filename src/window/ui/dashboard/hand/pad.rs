@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType, pos2, vec2};
 
-use crate::window::ui::{Look, UiState};
+use crate::window::ui::{FrameColours, UiState};
 use motion_lab_core::picture::Role;
 use motion_lab_core::robots::CHANNEL_UNITS;
 
@@ -36,7 +36,7 @@ pub fn at_right_of(room: Rect) -> Option<(Rect, Rect)> {
 }
 
 /// Shows the pad. Its channels are left in the state, where `drive` takes them. Returns whether it is pressed.
-pub fn pad(ui: &mut Ui, robot: &str, rect: Rect, look: &Look, state: &mut UiState) -> bool {
+pub fn pad(ui: &mut Ui, robot: &str, rect: Rect, look: &FrameColours, state: &mut UiState) -> bool {
     let centre = rect.center();
     let response = ui.interact(rect, Id::new((robot, "pad")), Sense::drag());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, format!("{robot}: pad, up drives forward")));

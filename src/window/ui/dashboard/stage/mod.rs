@@ -9,9 +9,10 @@ use bevy_egui::egui::{
     UiBuilder, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use self::places::{Places, WIDE, below_paper, places, share};
+use self::places::{StagePlaces, WIDE, below_paper, places, share};
 use self::swipe::swiped;
 use super::hand::{drive, pad};
+use super::in_hand;
 use super::pane::{self, NARROW_TEXT, text_height};
 use super::twins::shown_twin;
 use super::words::{height_of, words_apart, words_in};
@@ -21,7 +22,7 @@ use crate::window::ui::keys::{SessionAction, hint};
 use crate::window::ui::paint::scale_bar::scale_bar;
 use crate::window::ui::paint::touch::touched;
 use crate::window::ui::paint::{canvas, frame};
-use crate::window::ui::{Cockpit, Command, Dashboard, Grasp, Look, UiState, menu};
+use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, Grasp, UiState, menu};
 use motion_lab_core::picture::{Picture, Role};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::History;
@@ -43,7 +44,7 @@ const NARROW_WORDS: f32 = 120.0;
 const MENU: f32 = 70.0;
 
 /// Least width for the words beside the cockpit in front in a low room, points.
-const LEAST_WORDS: f32 = 170.0;
+const MIN_WORDS: f32 = 170.0;
 
 /// Width of the window from which three equal panes are offered, points.
 const ROOMY: f32 = 1600.0;
@@ -55,7 +56,7 @@ pub struct Stage<'a> {
     /// The run's history.
     pub history: &'a History,
     /// The look.
-    pub look: &'a Look,
+    pub look: &'a FrameColours,
 }
 
 impl Stage<'_> {
@@ -92,7 +93,7 @@ impl Stage<'_> {
         let Some((chosen, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
         let row = ui.text_style_height(&TextStyle::Body) + ui.spacing().item_spacing.y;
-        let Places { sheet, foot, mut beside } = places(cockpit, room, FOOT * row + 6.0);
+        let StagePlaces { sheet, foot, mut beside } = places(cockpit, room, FOOT * row + 6.0);
         let linked = self.linked(cockpit, state);
         let way = linked.as_ref().map_or_else(Vec::new, Linked::way);
         let fit = pane::paper(ui, cockpit, sheet, way, self.look, state, commands);
@@ -131,7 +132,7 @@ impl Stage<'_> {
 
     /// The robot of a cockpit that can be taken in hand, with its past.
     fn linked<'a>(&'a self, cockpit: &'a Cockpit, state: &UiState) -> Option<Linked<'a>> {
-        let robot = pane::chosen(cockpit, state)?;
+        let robot = in_hand::chosen(cockpit, state)?;
         let way = state.twin.as_ref().is_some_and(|asked| asked.is_way_of(&robot.name));
         let twin = shown_twin(robot, state).filter(|_| cockpit.robots.len() == 1);
         Linked::new(cockpit, robot, twin, way, state.is_red(robot), (self.history, self.model.tick))
@@ -160,7 +161,7 @@ impl Stage<'_> {
         let bottom = papers.iter().fold(room.top(), |low, paper| low.max(paper.bottom())) + 4.0 + line;
         for ((k, (index, cockpit)), paper) in (0..).zip(cockpits).zip(papers) {
             let whole = Rect::from_min_max(place(k), pos2(place(k).x + width, bottom));
-            if self.small(ui, cockpit, Placed { index: *index, whole, paper }, state) {
+            if self.small(ui, cockpit, SmallCockpit { index: *index, whole, paper }, state) {
                 drive::let_go(state, commands);
                 state.next_grasp = Some(Grasp::Leave);
                 state.settings.world = *index as u32;
@@ -170,8 +171,8 @@ impl Stage<'_> {
     }
 
     /// Shows a cockpit small: its world, its robots, its name. Returns whether it was clicked.
-    fn small(&self, ui: &mut Ui, cockpit: &Cockpit, place: Placed, state: &mut UiState) -> bool {
-        let Placed { index, whole, paper } = place;
+    fn small(&self, ui: &mut Ui, cockpit: &Cockpit, place: SmallCockpit, state: &mut UiState) -> bool {
+        let SmallCockpit { index, whole, paper } = place;
         let look = self.look;
         let response = ui.interact(whole, Id::new(("small", &cockpit.world.name)), Sense::click());
         let words = format!("Bring {} to the front ({})", cockpit.heading(), index + 1);
@@ -179,7 +180,7 @@ impl Stage<'_> {
             .widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{words}. {}", cockpit.described())));
         let painter = ui.painter_at(whole.expand(1.0));
         let fit = canvas::fit(&cockpit.world, paper);
-        canvas::paint_kept(&painter, &cockpit.world, paper, &fit, look);
+        canvas::paint_cached(&painter, &cockpit.world, paper, &fit, look);
         let robots = pane::robots(ui, cockpit, state);
         let over = Picture::new(&cockpit.world.name, cockpit.world.bounds).with(robots);
         canvas::paint(&ui.painter_at(paper), &over, &fit, look);
@@ -202,7 +203,7 @@ impl Stage<'_> {
     fn lying(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let Some((_, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
-        let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - LEAST_WORDS - 12.0));
+        let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - MIN_WORDS - 12.0));
         let fit = pane::paper(ui, cockpit, sheet, Vec::new(), self.look, state, commands);
         let beside = room.with_min_x(sheet.right() + 12.0);
         let mut ui = ui.new_child(UiBuilder::new().max_rect(beside).layout(Layout::top_down(Align::Min)));
@@ -224,7 +225,7 @@ impl Stage<'_> {
         // a picture that has half of the screen needs no other beside it
         let is_large = sheet.height() >= 0.5 * ui.ctx().content_rect().height();
         let (mut space, words) = if is_large { (None, below) } else { below_paper(below, NARROW_WORDS) };
-        let driven = pane::chosen(cockpit, state).filter(|robot| robot.drivable && touched(ui));
+        let driven = in_hand::chosen(cockpit, state).filter(|robot| robot.drivable && touched(ui));
         if let Some((place, rest)) = space.filter(|_| driven.is_some()).and_then(pad::at_right_of) {
             (state.pad_place, space) = (Some(place), Some(rest));
         }
@@ -233,7 +234,7 @@ impl Stage<'_> {
         if let Some((place, robot)) = state.pad_place.take().zip(driven)
             && pad::pad(ui, &robot.name, place, self.look, state)
         {
-            pane::take_in_hand(cockpit, Some(robot), state, commands);
+            in_hand::take_in_hand(cockpit, Some(robot), state, commands);
         }
         let is_whole = state.cameras.get(&cockpit.world.name).is_none_or(|camera| camera.zoom <= 1.0);
         // a magnified world is moved instead
@@ -326,7 +327,7 @@ pub fn front<'a>(cockpits: &'a [Cockpit], state: &UiState) -> Option<(usize, &'a
 
 /// Shows what stands above the picture where only one cockpit is seen: tabs and the menu. The picture comes first:
 /// title, key and hints stand below it.
-pub fn header(ui: &mut Ui, model: &Dashboard, look: &Look, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn header(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     ui.horizontal_wrapped(|ui| {
         tabs(ui, model, state, commands);
         // the menu is no tab: it stands at the right end
@@ -352,7 +353,7 @@ fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<
 
 /// Where a small cockpit is.
 #[derive(Clone, Copy)]
-struct Placed {
+struct SmallCockpit {
     /// The cockpit's index.
     index: usize,
     /// The rectangle that takes clicks.

@@ -8,8 +8,8 @@ use crate::window::ui::paint::canvas;
 
 /// Share of the stage's width for what stands beside the cockpit in front, and its bounds, points.
 const BESIDE: f32 = 0.34;
-const LEAST_BESIDE: f32 = 280.0;
-const MOST_BESIDE: f32 = 420.0;
+const MIN_BESIDE: f32 = 280.0;
+const MAX_BESIDE: f32 = 420.0;
 
 /// Share of a tall room's height for the cockpit in front, at most.
 const ABOVE: f32 = 0.62;
@@ -24,10 +24,10 @@ pub const WIDE: f32 = 560.0;
 const WORDS: f32 = 260.0;
 
 /// Least height of the configuration beside the cockpit in front, with its line of words, points.
-const LEAST_SPACE: f32 = 96.0;
+const MIN_SPACE: f32 = 96.0;
 
 /// Where the cockpit in front is, and what there is to say of it.
-pub struct Places {
+pub struct StagePlaces {
     /// Its world.
     pub sheet: Rect,
     /// The room under its world for a part of the words, if the room beside it is too low for all.
@@ -37,24 +37,24 @@ pub struct Places {
 }
 
 /// The places in a room, whose foot is `foot` high where there is one.
-pub fn places(cockpit: &Cockpit, room: Rect, foot: f32) -> Places {
+pub fn places(cockpit: &Cockpit, room: Rect, foot: f32) -> StagePlaces {
     let world = &cockpit.world;
     if room.height() > room.width() {
         let sheet = canvas::proportioned(world, room.with_max_y(room.top() + ABOVE * room.height()));
-        return Places { sheet, foot: None, beside: room.with_min_y(sheet.bottom() + 12.0) };
+        return StagePlaces { sheet, foot: None, beside: room.with_min_y(sheet.bottom() + 12.0) };
     }
-    let width = (BESIDE * room.width()).clamp(LEAST_BESIDE, MOST_BESIDE).min(0.6 * room.width());
+    let width = (BESIDE * room.width()).clamp(MIN_BESIDE, MAX_BESIDE).min(0.6 * room.width());
     let left = room.with_max_x(room.right() - width - GAP);
     let whole = canvas::proportioned(world, left);
     let is_free = room.bottom() - whole.bottom() >= foot;
     let is_high = room.height() >= HIGH || room.right() - whole.right() - GAP >= WIDE;
     // where robots share the room, what can be done with each stays with its words; a small world has no foot to give
     if cockpit.robots.len() != 1 || (is_high || left.width() < WIDE) && !is_free {
-        return Places { sheet: whole, foot: None, beside: room.with_min_x(whole.right() + GAP) };
+        return StagePlaces { sheet: whole, foot: None, beside: room.with_min_x(whole.right() + GAP) };
     }
     let sheet = canvas::proportioned(world, left.with_max_y((room.bottom() - foot).max(room.top())));
     let under = Rect::from_min_max(pos2(sheet.left(), sheet.bottom() + 6.0), pos2(sheet.right(), room.bottom()));
-    Places { sheet, foot: Some(under), beside: room.with_min_x(sheet.right() + GAP) }
+    StagePlaces { sheet, foot: Some(under), beside: room.with_min_x(sheet.right() + GAP) }
 }
 
 /// Shares a room between the words, which need a height, and the configuration: side by side where it is wide and not
@@ -62,12 +62,12 @@ pub fn places(cockpit: &Cockpit, room: Rect, foot: f32) -> Places {
 pub fn share(room: Rect, words: f32) -> (Rect, Option<Rect>) {
     // not by what the words need now, so that the two do not change places as words come and go
     let is_high = room.height() - WORDS >= 0.5 * room.width();
-    if room.width() >= WIDE && room.height() >= LEAST_SPACE && !is_high {
+    if room.width() >= WIDE && room.height() >= MIN_SPACE && !is_high {
         let (words, space) = room.split_left_right_at_fraction(0.5);
         return (words.with_max_x(words.right() - GAP), Some(space));
     }
     let side = (room.height() - words - 6.0).min(room.width()).min(0.66 * room.height());
-    if side < LEAST_SPACE {
+    if side < MIN_SPACE {
         return (room, None);
     }
     let (words, space) = room.split_top_bottom_at_y(room.bottom() - side);
@@ -78,7 +78,7 @@ pub fn share(room: Rect, words: f32) -> (Rect, Option<Rect>) {
 /// have at least `words` points; without room for both, all of it.
 pub fn below_paper(room: Rect, words: f32) -> (Option<Rect>, Rect) {
     let height = (room.height() - words).min(0.8 * room.width());
-    if height < LEAST_SPACE {
+    if height < MIN_SPACE {
         return (None, room);
     }
     let (space, words) = room.split_top_bottom_at_y(room.top() + height);

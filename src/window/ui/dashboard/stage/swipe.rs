@@ -5,7 +5,7 @@ use bevy_egui::egui::{Id, Rect, Ui};
 use crate::window::ui::paint::touch::pinched;
 
 /// Least way of a swipe, points, and how many times longer than high it is.
-const LEAST: f32 = 60.0;
+const MIN_SWIPE: f32 = 60.0;
 const FLAT: f32 = 2.0;
 
 /// The way to the world that a finger asks for by a swipe over `paper`: 1 for the next one, to the left, and -1 for the
@@ -18,7 +18,7 @@ pub fn swiped(ui: &Ui, paper: Rect) -> i32 {
         return 0;
     };
     let by = to - from;
-    let is_swipe = by.x.abs() >= LEAST && by.x.abs() >= FLAT * by.y.abs();
+    let is_swipe = by.x.abs() >= MIN_SWIPE && by.x.abs() >= FLAT * by.y.abs();
     let is_free = ui.ctx().dragged_id().is_none() && !pinched(ui);
     if !is_swipe || !is_free || !paper.contains(from) || ui.data(|data| data.get_temp(done).unwrap_or(false)) {
         return 0;

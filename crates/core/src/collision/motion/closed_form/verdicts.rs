@@ -3,7 +3,7 @@
 use super::disc_line::DiscLine;
 use super::first_contact::{arc_clearance, arc_meets, translation_meets};
 use crate::collision::motion::conservative_advancement::BRACKET;
-use crate::collision::motion::place::Place;
+use crate::collision::motion::place::At;
 use crate::collision::motion::step::step_clearance;
 use crate::collision::{Certificate, Collision, EdgeVerdict, HitBy, ObstacleId, ProvenStep, Scene, Witness};
 use crate::geometry::{CircularArc, Footprint, Point2, Segment};
@@ -37,7 +37,7 @@ pub(crate) fn straight<M: Motion>(
 ) -> Option<EdgeVerdict> {
     let end = motion.footprint_at(1.0);
     let prove = |to: f64, footprint: &Footprint| {
-        let clearance = step_clearance(scene, motion, Place::new(0.0, start), Place::new(to, footprint));
+        let clearance = step_clearance(scene, motion, At::new(0.0, start), At::new(to, footprint));
         (clearance > 0.0).then_some(ProvenStep { from: 0.0, to, clearance })
     };
     // every proven step covers the start too, so the start needs no query of its own

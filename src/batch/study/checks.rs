@@ -1,0 +1,119 @@
+//! What is checked when a study is made: its robots, its goal, its planner and its axes.
+
+use crate::batch::axis::CheckedAxis;
+use crate::batch::columns::{MAX_ROBOT_COLUMNS, RobotColumns};
+use crate::batch::error::SweepProblem;
+use crate::batch::parameter::{Parameter, RobotParameter, Sources};
+use crate::batch::study_text::{GoalText, StudyItem, StudyText};
+use crate::batch::values::Over;
+use motion_lab_core::configuration::{RobotKind, Sizes};
+use motion_lab_core::worlds::{BeamModel, Resident, World, WorldProblem};
+
+/// What is wrong with a robot's sizes or noise, when all axes have their values.
+pub fn check(kind: &str, sizes: Option<&Sizes>, noise: Option<BeamModel>) -> Option<String> {
+    let sizes = sizes.and_then(|sizes| sizes.check_for(kind).err()).map(|error| error.to_string());
+    sizes.or_else(|| noise.and_then(|noise| noise.try_new().err()).map(|error| error.to_string()))
+}
+
+/// Checks the robots and the goal.
+pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyItem, SweepProblem)> {
+    let find = |name: &str| worlds.iter().flat_map(|w| &w.robots).find(|r| r.name == name);
+    let unknown = |robot: &str| {
+        let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).take(20).collect();
+        let there = if names.is_empty() { "none".into() } else { names.join(", ") };
+        SweepProblem::Robot { robot: robot.to_owned(), there }
+    };
+    if let Some(robot) = study.robots.iter().find(|name| find(name).is_none()) {
+        return Err((StudyItem::Robots, unknown(robot)));
+    }
+    let Some(GoalText { robot, at, within }) = &study.goal else { return Ok(()) };
+    let Some(resident) = find(robot).filter(|_| study.keeps(robot)) else {
+        return Err((StudyItem::Goal, unknown(robot)));
+    };
+    let (coordinates, tolerances, expected) = (at.len(), within.len(), resident.start.len());
+    if coordinates != expected || tolerances != expected {
+        return Err((StudyItem::Goal, SweepProblem::Goal { coordinates, tolerances, expected }));
+    }
+    if let Some(wrong) = at.iter().chain(within).find(|x| !x.is_finite()) {
+        return Err((StudyItem::Goal, SweepProblem::NotFinite(*wrong)));
+    }
+    match within.iter().find(|tolerance| **tolerance < 0.0) {
+        Some(wrong) => Err((StudyItem::Goal, SweepProblem::Tolerance(*wrong))),
+        None => Ok(()),
+    }
+}
+
+/// Checks that a study with a planner says who goes where, and nothing else that drives its robot.
+pub fn check_planner(study: &StudyText) -> Result<(), (StudyItem, SweepProblem)> {
+    let refused = |reason| Err((StudyItem::Planner, SweepProblem::Planner(reason)));
+    match &study.planner {
+        Some(_) if study.script.is_some() => refused("the study has a script too, and its robot follows one of them"),
+        Some(_) if study.goal.is_none() => refused("it needs a goal, which says what robot goes where"),
+        _ => Ok(()),
+    }
+}
+
+/// The unit of planned paths: radians where the goal's robot is an arm. `None` without a planner.
+pub fn planned_unit(study: &StudyText, worlds: &[&World]) -> Option<&'static str> {
+    let (_, GoalText { robot, .. }) = study.planner.as_ref().zip(study.goal.as_ref())?;
+    let resident = worlds.iter().flat_map(|world| &world.robots).find(|resident| resident.name == *robot)?;
+    RobotKind::of(&resident.kind).map(|kind| kind.unit_of(0))
+}
+
+/// The axes, each of which varies something.
+pub fn make_axes(study: &StudyText, worlds: &[&World]) -> Result<Vec<CheckedAxis>, (StudyItem, SweepProblem)> {
+    let mut axes: Vec<CheckedAxis> = Vec::with_capacity(study.axes.len());
+    let robots: Vec<&Resident> =
+        worlds.iter().flat_map(|world| &world.robots).filter(|robot| study.keeps(&robot.name)).collect();
+    let there =
+        Sources { sensor: !study.no_sensor, warehouse: study.warehouse.is_some(), planner: study.planner.is_some() };
+    for (i, text) in study.axes.iter().enumerate() {
+        let refused = |problem| (StudyItem::Axis(i), problem);
+        let parameter =
+            Parameter::named(&text.vary, worlds).map_err(|there| refused(SweepProblem::Parameter(there)))?;
+        if let Some(before) = axes.iter().position(|axis| axis.parameter.overlaps(&parameter)) {
+            return Err(refused(SweepProblem::Twice(before)));
+        }
+        let axis = CheckedAxis::try_new(parameter, text.over.clone()).map_err(refused)?;
+        if let Some(reason) = axis.parameter.idle(&robots, there) {
+            return Err(refused(SweepProblem::Idle(reason)));
+        }
+        if let (Parameter::Robot { robot, of: RobotParameter::Start, .. }, Over::Starts(starts)) =
+            (&axis.parameter, &text.over)
+        {
+            check_starts(starts, &robots, robot).map_err(refused)?;
+        }
+        axes.push(axis);
+    }
+    Ok(axes)
+}
+
+/// Checks that each start has the number of coordinates of some robot of this name.
+fn check_starts(starts: &[Vec<f64>], robots: &[&Resident], robot: &str) -> Result<(), SweepProblem> {
+    for (index, start) in starts.iter().enumerate() {
+        let reason = |known: &&Resident| match Resident::try_new(robot, known.kind.clone(), start.clone(), None) {
+            Err(problem @ WorldProblem::Start { .. }) => Some(problem.to_string()),
+            // a start elsewhere, as beyond the lab, is for the row to say
+            _ => None,
+        };
+        let reasons: Option<Vec<String>> = robots.iter().filter(|known| known.name == robot).map(reason).collect();
+        if let Some(reason) = reasons.and_then(|reasons| reasons.into_iter().next()) {
+            return Err(SweepProblem::Start { index, reason });
+        }
+    }
+    Ok(())
+}
+
+/// The robots with columns of their own: all that are kept, of all worlds, unless they are many.
+pub fn robot_columns(study: &StudyText, worlds: &[&World]) -> Vec<RobotColumns> {
+    let mut robots: Vec<RobotColumns> = Vec::new();
+    for resident in worlds.iter().flat_map(|w| &w.robots) {
+        if study.keeps(&resident.name) && !robots.iter().any(|known| known.name == resident.name) {
+            if robots.len() == MAX_ROBOT_COLUMNS {
+                return Vec::new();
+            }
+            robots.push(RobotColumns { name: resident.name.clone(), kind: resident.kind.clone() });
+        }
+    }
+    robots
+}

@@ -1,0 +1,145 @@
+//! A study as written, and `Bundle`, a study with the contents of everything it names.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use xxhash_rust::xxh3::xxh3_128;
+
+use super::points::Combinations;
+use super::values::Over;
+use motion_lab_sim::run::Digest;
+
+/// A study as written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename = "Sweep", deny_unknown_fields)]
+pub(super) struct StudyText {
+    pub version: u64,
+    /// Built-in worlds or files, relative to the study's folder. Empty without a warehouse: the tour's three.
+    #[serde(default)]
+    pub worlds: Vec<String>,
+    #[serde(default)]
+    pub warehouse: Option<WarehouseText>,
+    /// The robots that are kept; all of them where it is empty.
+    #[serde(default)]
+    pub robots: Vec<String>,
+    /// The input script's file, relative to the study's folder; without one every robot tours.
+    #[serde(default)]
+    pub script: Option<String>,
+    /// Who plans the way of the goal's robot, which then follows it; without one there is a script, or a tour.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planner: Option<PlannerText>,
+    #[serde(default)]
+    pub seed: Option<u64>,
+    #[serde(default)]
+    pub ticks: Option<u64>,
+    #[serde(default)]
+    pub sensor: Option<RunSensorText>,
+    /// Rovers without the run's range sensor.
+    #[serde(default)]
+    pub no_sensor: bool,
+    #[serde(default)]
+    pub goal: Option<GoalText>,
+    #[serde(default)]
+    pub axes: Vec<AxisText>,
+    #[serde(default)]
+    pub points: Combinations,
+}
+
+impl StudyText {
+    /// Whether a robot of this name takes part.
+    pub fn keeps(&self, robot: &str) -> bool {
+        self.robots.is_empty() || self.robots.iter().any(|kept| kept == robot)
+    }
+}
+
+/// A planner of `motion-lab plan`, and what it may do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PlannerText {
+    /// Its name; the usual one of the robot where it is left out.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// The greatest number of iterations.
+    #[serde(default)]
+    pub iterations: Option<u64>,
+    /// How much larger a rover is planned, metres.
+    #[serde(default = "two_centimetres")]
+    pub tube: f64,
+}
+
+fn two_centimetres() -> f64 {
+    0.02
+}
+
+/// A generated world.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WarehouseText {
+    pub robots: u64,
+    #[serde(default = "one")]
+    pub seed: u64,
+    #[serde(default)]
+    pub trailers: bool,
+}
+
+fn one() -> u64 {
+    1
+}
+
+/// The range sensor that a run gives its rovers.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RunSensorText {
+    pub rays: u32,
+    pub range: f64,
+}
+
+/// Where a robot should be, with a tolerance for each coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct GoalText {
+    pub robot: String,
+    pub at: Vec<f64>,
+    pub within: Vec<f64>,
+}
+
+/// An axis as written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct AxisText {
+    /// The parameter's name.
+    pub vary: String,
+    /// Its values.
+    pub over: Over,
+}
+
+/// An item of a study that an error is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StudyItem {
+    Version,
+    Robots,
+    Goal,
+    Planner,
+    Points,
+    Axis(usize),
+    Whole,
+}
+
+/// What a bundle begins with.
+pub(super) const FORMAT: &str = "motion-lab sweep 1";
+
+/// A study with the canonical texts of its worlds and scripts, by the names it gives them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Bundle {
+    pub format: String,
+    #[serde(rename = "plan")]
+    pub study: StudyText,
+    pub worlds: BTreeMap<String, String>,
+    pub scripts: BTreeMap<String, String>,
+}
+
+/// The digest of a bundle's line: equal digests mean equal sweeps.
+pub(super) fn digest_of(line: &str) -> Digest {
+    Digest(xxh3_128(line.as_bytes()))
+}

@@ -1,0 +1,193 @@
+//! The first hints of a widget, and the lesson under way.
+
+use bevy_egui::egui::{
+    Color32, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, Vec2, WidgetInfo,
+    WidgetType, vec2,
+};
+
+use super::super::touch::worded;
+use super::title::{misconception, rows_of_words};
+use crate::window::ui::keys::{self, SessionAction};
+use crate::window::ui::paint::style::ScreenTheme;
+use crate::window::ui::{FrameColours, LessonState, UiState, WidgetText};
+use motion_lab_core::picture::Role;
+use motion_lab_sim::manifest::{Hint, HintTask, Lesson, Widget};
+
+/// Largest number of hints shown at once.
+const FEW: usize = 4;
+
+/// Side of the box before a hint, points, and the gap after it.
+const BOX: f32 = 10.0;
+const AFTER: f32 = 5.0;
+
+/// Whether a hint can be followed with the robot that the widget in front shows.
+fn suits(hint: &Hint, state: &UiState) -> bool {
+    !hint.arm || state.anatomy.anatomy.lengths().is_some()
+}
+
+/// Shows what a new reader may try first in the widget in front, until its hints are put away.
+pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiState) {
+    // what ends on the dashboard, such as a world that is run, says there that it is done
+    let leads_on = |under_way: &LessonState| matches!(under_way.lesson.deed, HintTask::EditWorld | HintTask::PlayPath);
+    let is_here = |under_way: &LessonState| {
+        let ended = under_way.took.is_some() && state.widget == Widget::Dashboard && leads_on(under_way);
+        under_way.lesson.widget == state.widget || ended
+    };
+    if let Some(under_way) = state.lesson.clone().filter(is_here) {
+        return lesson(ui, &under_way, look, state);
+    }
+    if state.settings.are_hints_away(state.widget) {
+        return;
+    }
+    let (top, least) = (ui.cursor().top(), rows_of_hints(ui, widget));
+    rows_of_words(ui, |ui| {
+        // a hint goes to the next row as a whole
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Text)).strong());
+        let is_done = |hint: &&Hint| state.settings.is_ticked_off(hint.task);
+        let hints: Vec<&Hint> = widget.hints.iter().filter(|hint| suits(hint, state)).collect();
+        let (count, done) = (hints.len(), hints.iter().copied().filter(is_done).count());
+        // before the hints, where no row leaves them alone
+        ui.weak(format!("{done} of {count}"));
+        let hover = format!("Put these hints away: {}", keys::hint(SessionAction::Hints));
+        let is_put_away = ui.link("Got it").on_hover_text(hover).clicked();
+        // of more than fit a row, the one done last and those that come next
+        let last = state.settings.done.iter().rev().find_map(|id| hints.iter().copied().find(|h| h.task.id() == *id));
+        let mut open = 0;
+        let mut begun = None;
+        for hint in hints {
+            let is_done = is_done(&hint);
+            open += usize::from(!is_done);
+            let is_shown = count <= FEW || (if is_done { last == Some(hint) } else { open < FEW });
+            if is_shown && task(ui, &hint.text, is_done, look).on_hover_text("Begin this task").clicked() {
+                begun = Some(Lesson { deed: hint.task, widget: state.widget });
+            }
+        }
+        if is_put_away {
+            state.settings.put_hints_away(state.widget);
+        }
+        if let Some(lesson) = begun {
+            state.begin(lesson);
+        }
+    });
+    // what stands below does not move when a hint gives way to a shorter one
+    let missing = top + least + ui.spacing().item_spacing.y - ui.cursor().top();
+    if missing > 0.0 {
+        ui.add_space(missing);
+    }
+}
+
+/// Whether a lesson of the widget in front has been done.
+pub fn is_done_here(state: &UiState) -> bool {
+    state.lesson.as_ref().is_some_and(|on| on.took.is_some() && on.lesson.widget == state.widget)
+}
+
+/// Shows the next of the hints, for the words below the picture of a narrow screen. In a lesson, whose task stands
+/// above, it shows once that is done what it removes.
+pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiState) {
+    if look.narrow && !look.low && is_done_here(state) {
+        return misconception(ui, widget, look);
+    }
+    if !look.narrow || state.lesson.is_some() || state.settings.are_hints_away(state.widget) {
+        return;
+    }
+    let is_open = |hint: &&Hint| !state.settings.is_ticked_off(hint.task);
+    let hints: Vec<&Hint> = widget.hints.iter().filter(|hint| suits(hint, state)).collect();
+    let (count, open) = (hints.len(), hints.iter().copied().filter(is_open).count());
+    let next = hints.iter().copied().find(is_open).or(hints.last().copied());
+    rows_of_words(ui, |ui| {
+        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Text)).strong());
+        ui.weak(format!("{} of {count} done", count - open));
+        if ui.link("Got it").on_hover_text("Put these hints away").clicked() {
+            state.settings.put_hints_away(state.widget);
+        }
+    });
+    if let Some(hint) = next
+        && task(ui, &hint.text, open == 0, look).on_hover_text("Begin this task").clicked()
+    {
+        state.begin(Lesson { deed: hint.task, widget: state.widget });
+    }
+    ui.add_space(4.0);
+}
+
+/// Shows the task of the lesson under way in place of the hints, and once it is done what it removes.
+fn lesson(ui: &mut Ui, under_way: &LessonState, look: &FrameColours, state: &mut UiState) {
+    let widget = under_way.lesson.widget.text();
+    rows_of_words(ui, |ui| {
+        // what is said in place of other words leaves the picture below where it is
+        let (head, role) = match under_way.took {
+            None => ("Task:".to_owned(), Role::Text),
+            Some(took) => (format!("Done in {took:.0} s:"), Role::Free),
+        };
+        ui.label(RichText::new(head).color(look.theme.colour(role)).strong());
+        let mut is_begun = task(ui, under_way.lesson.text(), under_way.took.is_some(), look).clicked();
+        // in its own widget it stands above already, or on a narrow screen below the picture
+        if under_way.took.is_some() && under_way.lesson.widget != state.widget {
+            misconception(ui, widget, look);
+        }
+        is_begun |= ui.link("Again").on_hover_text("Begin this task anew").clicked();
+        if ui.link("All tasks").clicked() {
+            state.lesson = None;
+            state.settings.show_hints(state.widget);
+        } else if is_begun {
+            state.begin(under_way.lesson);
+        }
+    });
+}
+
+/// The greatest height that the hints of a widget take at this width, whatever is done of them.
+fn rows_of_hints(ui: &Ui, widget: &WidgetText) -> f32 {
+    let font = TextStyle::Body.resolve(ui.style());
+    let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
+    let gap = ui.spacing().item_spacing;
+    // a point more, for rounding
+    let head = ["Try:", "0 of 0", "Got it"].map(|word| width(word) + gap.x + 1.0).iter().sum();
+    let hints: Vec<f32> = widget.hints.iter().map(|hint| width(&hint.text) + BOX + AFTER + gap.x + 1.0).collect();
+    let rows = max_rows(&hints, head, ui.available_width() + gap.x);
+    let row = ui.text_style_height(&TextStyle::Body) + 2.0;
+    rows as f32 * (row + gap.y) - gap.y
+}
+
+/// The largest number of rows for hints of these widths behind a head, over all that may be done and be done last.
+fn max_rows(hints: &[f32], head: f32, room: f32) -> u32 {
+    let sets = 1_u32 << hints.len().min(10);
+    let is_in = |set: u32, i: usize| set >> i & 1 == 1;
+    let rows = |done: u32, last: Option<usize>| {
+        let (mut rows, mut used, mut open) = (1, head, 0);
+        for (i, hint) in hints.iter().enumerate() {
+            open += usize::from(!is_in(done, i));
+            let is_shown = hints.len() <= FEW || (if is_in(done, i) { last == Some(i) } else { open < FEW });
+            if !is_shown {
+                continue;
+            }
+            (rows, used) = if used + hint > room { (rows + 1, *hint) } else { (rows, used + hint) };
+        }
+        rows
+    };
+    let states = (0..sets).flat_map(|done| (0..=hints.len()).map(move |last| (done, last)));
+    states.map(|(done, last)| rows(done, Some(last).filter(|i| is_in(done, *i)))).max().unwrap_or(1)
+}
+
+/// Shows a hint with a box before it, which is ticked once it has been done.
+fn task(ui: &mut Ui, text: &str, done: bool, look: &FrameColours) -> Response {
+    let text = worded(ui, text);
+    let colour = look.theme.colour(if done { Role::Muted } else { Role::Text });
+    let width = ui.max_rect().width() - BOX - AFTER;
+    let galley = ui.painter().layout(text.clone(), TextStyle::Body.resolve(ui.style()), colour, width);
+    let (rect, response) = ui.allocate_exact_size(galley.size() + vec2(BOX + AFTER, 0.0), Sense::click());
+    let spoken = if done { format!("{text} Done.") } else { text };
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Link, true, &spoken));
+    let middle = 0.5 * ui.text_style_height(&TextStyle::Body) + 1.0;
+    let square = Rect::from_center_size(rect.min + vec2(0.5 * BOX, middle), Vec2::splat(BOX));
+    ui.painter().rect_stroke(square, 0.0, Stroke::new(1.0, look.theme.colour(Role::Muted)), StrokeKind::Inside);
+    if done {
+        let tick = [vec2(2.0, 5.0), vec2(4.0, 7.5), vec2(8.5, 2.0)].map(|corner| square.min + corner);
+        ui.painter().add(Shape::line(tick.to_vec(), Stroke::new(1.8, look.theme.colour(Role::Free))));
+    }
+    ui.painter().galley(rect.min + vec2(BOX + AFTER, 0.0), galley, colour);
+    if response.hovered() || response.has_focus() {
+        let line = Stroke::new(1.0, look.theme.colour(Role::Focus));
+        ui.painter().hline(rect.left() + BOX + AFTER..=rect.right(), rect.bottom(), line);
+    }
+    response
+}

@@ -1,0 +1,4 @@
+//! Grading.
+
+pub mod grade;
+pub mod gradebook;

@@ -1,0 +1,6 @@
+//! Queries, plans and figures.
+
+pub mod capture;
+pub mod certificates;
+pub mod plan;
+pub mod queries;

@@ -1,0 +1,12 @@
+//! Recording, replaying, comparing and measuring runs.
+
+pub mod columns;
+pub mod diff;
+pub mod digests;
+pub mod driving;
+#[cfg(target_os = "linux")]
+pub mod progress;
+pub mod record;
+pub mod replay;
+pub mod stats;
+pub mod verify;

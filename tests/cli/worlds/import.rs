@@ -1,0 +1,103 @@
+//! `world import` and `world export`.
+
+use std::fs;
+
+use crate::cli::{run, run_in};
+
+fn sample(name: &str) -> String {
+    format!("{}/tests/samples/{name}", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn what_is_imported_passes_the_check_and_can_be_run() {
+    let folder = tempfile::tempdir().unwrap();
+    for (file, start) in [("room.yaml", "0,0,0"), ("yard.map", "1.5,1.5,0"), ("hall.svg", "100,60,0")] {
+        let output = run_in(
+            folder.path(),
+            &["world", "import", &sample(file), "--robot", "rusty", "--start", start, "-o", "world.ron"],
+        );
+        assert!(output.err.contains("wrote world.ron with ") && !output.err.contains("contact"), "{}", output.err);
+        output.done();
+        let checked = run_in(folder.path(), &["world", "check", "world.ron"]).done();
+        assert!(checked.contains("robots: Rusty"), "{checked}");
+        let recorded = run_in(folder.path(), &["record", "--world", "world.ron", "--ticks", "3"]).done();
+        assert!(recorded.contains("\nRusty  x "), "{recorded}");
+        // without -o the same text is printed
+        let printed = run(&["world", "import", &sample(file), "--robot", "rusty", "--start", start]).done();
+        assert_eq!(fs::read_to_string(folder.path().join("world.ron")).unwrap(), printed);
+    }
+}
+
+#[test]
+fn a_world_of_ir_sim_brings_its_robots() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(folder.path(), &["world", "import", &sample("garden.yaml"), "-o", "garden.ron"]);
+    assert!(output.err.contains("motion-lab: robot.behavior is left out"), "{}", output.err);
+    output.done();
+    let checked = run_in(folder.path(), &["world", "check", "garden.ron"]).done();
+    assert!(checked.contains("garden, ") && checked.ends_with("robots: Rusty, Hitch\n"), "{checked}");
+    run_in(folder.path(), &["record", "--world", "garden.ron", "--ticks", "3"]).done();
+}
+
+#[test]
+fn an_exported_map_is_imported_again_and_a_picture_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);
+    assert!(output.err.contains("wrote lot.yaml and lot.pgm, 64 x 40 cells"), "{}", output.err);
+    output.done();
+    // 16 x 10 m in cells of 0.25 m
+    assert!(fs::read(folder.path().join("lot.pgm")).unwrap().starts_with(b"P5\n64 40\n255\n"));
+    run_in(folder.path(), &["world", "import", "lot.yaml", "-o", "again.ron"]).done();
+    run_in(folder.path(), &["world", "check", "again.ron"]).done();
+    run_in(folder.path(), &["world", "export", "again.ron", "--format", "svg", "-o", "picture"]).done();
+    let picture = fs::read_to_string(folder.path().join("picture")).unwrap();
+    assert!(picture.starts_with("<svg") && picture.contains("box 1"), "{picture}");
+    for (arguments, reason) in [
+        (&["lot", "-o", "lot.bmp"][..], "--format"),
+        (&["lot", "-o", "lot.yaml", "--resolution", "0"], "resolution of 0 m"),
+        (&["lot", "-o", "lot.pgm", "--format", "ros"], "the image's name"),
+    ] {
+        let error = run_in(folder.path(), &[&["world", "export"], arguments].concat()).failed(2);
+        assert!(error.contains(reason), "{error}");
+    }
+}
+
+#[test]
+fn a_robot_in_a_wall_is_reported() {
+    let hollow = ["world", "import", &sample("room.yaml"), "--robot", "rusty", "--start", "-0.5,-1.4,0", "--hollow"];
+    let output = run(&hollow);
+    assert!(output.err.contains("Rusty starts in contact with wall 4"), "{}", output.err);
+    assert!(output.err.contains("the occupied cells are hollow"), "{}", output.err);
+    assert!(output.err.contains("unknown cells, taken as occupied: 1"), "{}", output.err);
+    assert!(output.done().contains("start: [-0.5, -1.4, 0.0]"));
+    // a yard whose cells are all occupied: Rusty in the middle touches a box, but nothing where the cells are hollow
+    let folder = tempfile::tempdir().unwrap();
+    let rows = ["@@@@@@"; 6].join("\n");
+    fs::write(folder.path().join("full.map"), format!("type octile\nheight 6\nwidth 6\nmap\n{rows}\n")).unwrap();
+    let inside = ["world", "import", "full.map", "--robot", "rusty", "--start", "3,3,0"];
+    let output = run_in(folder.path(), &inside);
+    assert!(output.err.contains("Rusty starts in contact with box 1"), "{}", output.err);
+    output.done();
+    let output = run_in(folder.path(), &[&inside[..], &["--hollow"]].concat());
+    assert!(!output.err.contains("contact"), "{}", output.err);
+    output.done();
+}
+
+#[test]
+fn imports_that_cannot_be_say_why() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("lost.yaml"), "image: nowhere.pgm\nresolution: 1\norigin: [0, 0, 0]\n").unwrap();
+    fs::write(folder.path().join("cut.map"), "type octile\nheight 2\nwidth 2\nmap\n@@\n").unwrap();
+    fs::write(folder.path().join("world.txt"), "").unwrap();
+    let failed =
+        |arguments: &[&str], code| run_in(folder.path(), &[&["world", "import"], arguments].concat()).failed(code);
+    assert!(failed(&["lost.yaml"], 3).contains("nowhere.pgm: there is no such file"));
+    assert!(failed(&["cut.map"], 3).contains("cut.map: 1 rows: the head of the file tells 2"));
+    assert!(failed(&["nowhere.map"], 3).contains("nowhere.map: there is no such file"));
+    assert!(failed(&["world.txt"], 2).contains("--format"));
+    assert!(failed(&["room.pgm"], 2).contains("yaml file beside it"));
+    let wrong = failed(&[&sample("yard.map"), "--robot", "rusty", "--start", "1,2"], 2);
+    assert!(wrong.contains("a rusty starts with three: x, y, theta"), "{wrong}");
+    failed(&[&sample("yard.map"), "--robot", "rusty"], 2);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "nothing was written");
+}
