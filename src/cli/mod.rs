@@ -6,7 +6,7 @@ mod support;
 pub use support::console::{Data, say};
 pub use support::end::{Failure, Outcome};
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use support::console::be_quiet;
 
 use commands::{
@@ -94,20 +94,19 @@ impl Cli {
             Some(CliCommand::World(world)) => world.run(data),
             Some(CliCommand::Script(script)) => script.run(data),
             Some(CliCommand::Sweep(sweep)) => sweep.run(data),
-            Some(CliCommand::Completions(completions)) => completions.run(data),
-            Some(CliCommand::Man(man)) => man.run(data),
+            Some(CliCommand::Completions(completions)) => completions.run(Cli::command(), data),
+            Some(CliCommand::Man(man)) => man.run(Cli::command(), data),
             Some(CliCommand::Grade(grade)) => grade.run(data),
             Some(CliCommand::Describe(describe)) => describe.run(data),
             #[cfg(feature = "window")]
             Some(CliCommand::Open(open)) => open.run(),
-            None => bare::bare(data),
+            None => bare::bare(Cli::command(), data),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
 
     use super::*;
 

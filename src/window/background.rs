@@ -7,7 +7,8 @@ use bevy::platform::time::Instant;
 use bevy::prelude::*;
 
 use super::error::SessionError;
-use crate::window::ui::{Interface, Notice, Widget, Working};
+use crate::window::ui::{Interface, Notice, Working};
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::recording::Recorder;
 use motion_lab_sim::run::{Comparison, Difference, Log, LogWriter};
 use motion_lab_sim::simulation::{Keyframes, LatestFrame, Playback, Transport, TransportCommand, seek};

@@ -1,8 +1,9 @@
 //! The widget in front as a figure, for captures.
 
 use super::run_files::ShownRun;
-use crate::window::ui::{UiState, Widget};
+use crate::window::ui::UiState;
 use motion_lab_sim::capture::{CaptureError, CaptureForm, Captured, Subject, anatomy, at_tick_with_robots};
+use motion_lab_sim::manifest::Widget;
 
 /// The widget in front as a figure of this width, pixels. The dashboard shows the run at `tick`; the other widgets do
 /// not depend on the run.

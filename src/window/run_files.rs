@@ -4,8 +4,9 @@ use bevy::ecs::world::World;
 
 use super::background::{self, Check, Done, Save};
 use super::error::SessionError;
-use crate::window::ui::{AtlasState, Interface, Notice, Widget};
+use crate::window::ui::{AtlasState, Interface, Notice};
 use motion_lab_sim::atlas::Editor;
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::recording::{Recorder, Run, RunError};
 use motion_lab_sim::run::{Comparison, Log, LogError, LogKind, LogWriter, MAX_ROBOTS_IN_FULL, Recipe};
 use motion_lab_sim::simulation::{LatestFrame, Playback, RobotKinds, Transport, checkpoint, recipe, start_recipe};

@@ -14,13 +14,14 @@ use super::error::SessionError;
 use super::lab_systems::LabSystems;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
-use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, Widget, blend};
+use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, blend};
 use motion_lab_core::configuration::{Configuration as _, HitchCfg, RobotKind, Sizes};
 use motion_lab_core::geometry::{Footprint, Pose2, Segment};
 use motion_lab_core::picture::{Picture, world as picture_of};
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World as WorldModel;
 use motion_lab_sim::atlas::Atlas;
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::run::{DT, Recipe};
 use motion_lab_sim::simulation::{
     CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,

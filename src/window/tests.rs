@@ -73,7 +73,7 @@ fn app(frame: Duration) -> App {
         .add_message::<SessionCommand>()
         .insert_resource(TimeUpdateStrategy::ManualDuration(frame));
     let settings = &mut app.world_mut().resource_mut::<Interface>().into_inner().0.settings;
-    crate::window::ui::Widget::ALL.into_iter().for_each(|widget| settings.put_hints_away(widget));
+    motion_lab_sim::manifest::Widget::ALL.into_iter().for_each(|widget| settings.put_hints_away(widget));
     app
 }
 

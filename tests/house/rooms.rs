@@ -131,6 +131,32 @@ fn no_circle_of_files() {
     assert!(arrows > 1000, "{arrows} imports: this test no longer reads the sources");
 }
 
+/// The two files of the window that put its app together: what starts it, `desktop/window.rs`, asks them for it.
+const OF_THE_APP: [&str; 2] = ["src/window/mod.rs", "src/window/desktop/mod.rs"];
+
+/// A room's own file is its shop window, not a corridor: what its files share has a file of its own, so that inside a
+/// room all arrows go down.
+#[test]
+fn no_file_imports_what_its_own_rooms_file_defines() {
+    let sources = sources();
+    let (mut within, mut upward) = (0, Vec::new());
+    for (name, _) in CRATES {
+        let part: Vec<&Source> = sources.iter().filter(|s| s.of_crate() == name).collect();
+        let graph = Graph::new(&part);
+        for source in part.iter().filter(|s| !s.file.ends_with("/tests.rs") && !s.file.contains("/tests/")) {
+            for used in graph.uses(source).into_iter().filter(|used| used.room() == source.room()) {
+                within += 1;
+                let is_above = used.is_room() && source.module.starts_with(&used.module);
+                if is_above && !OF_THE_APP.contains(&used.file.as_str()) {
+                    upward.push(format!("{} -> {}", source.file, used.file));
+                }
+            }
+        }
+    }
+    assert!(upward.is_empty(), "{} arrows go up:\n{}", upward.len(), upward.join("\n"));
+    assert!(within > 800, "{within} arrows within rooms: this test no longer reads the sources");
+}
+
 #[test]
 fn a_circle_is_found() {
     assert_eq!(first_circle(&[vec![1], vec![2], vec![], vec![0, 4], vec![5], vec![3]]), Some(vec![3, 4, 5]));

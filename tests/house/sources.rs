@@ -218,6 +218,8 @@ impl<'a> Graph<'a> {
     pub fn uses(&self, source: &Source) -> Vec<&'a Source> {
         let paths = source.imports().into_iter();
         let paths = paths.filter(|path| !(source.is_room() && path.starts_with(&source.module)));
+        // the beginning of a tree, `super` of `use super::{Frame, Log}`, is a room above and no item of it
+        let paths = paths.filter(|path| !source.module.starts_with(path));
         let mut used: Vec<&Source> = paths
             .filter_map(|path| self.home(&path))
             .filter(|s| s.file != source.file && !s.file.ends_with("src/lib.rs"))

@@ -18,13 +18,13 @@ use crate::web::link::MAX_LINK_TICK;
 use crate::window::for_page::{
     Interface, open_log, open_path_text, open_world_text, seek_in_background, stop_background,
 };
-use crate::window::ui::{Notice, SessionCommand, UiState, Widget};
+use crate::window::ui::{Notice, SessionCommand, UiState};
 use motion_lab_core::configuration::Configuration as _;
 use motion_lab_core::picture::{Role, Theme};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::CHANNEL_UNITS;
 use motion_lab_sim::anatomy::Tab;
-use motion_lab_sim::manifest::{Lesson, ThemeChoice};
+use motion_lab_sim::manifest::{Lesson, ThemeChoice, Widget};
 use motion_lab_sim::run::{Event, Script, WorldChange, WorldEvent};
 use motion_lab_sim::simulation::{
     RobotCommand, RobotKinds, RunCommand, RunConfig, Transport, TransportCommand, WorldCommand,

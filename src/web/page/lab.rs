@@ -21,8 +21,9 @@ use super::report::{LinkedTheme, Sent, report};
 use super::run_link::open_link;
 use crate::web::link::{Link, LinkError, requoted};
 use crate::window::for_page::{Interface, limit, windowed_app};
-use crate::window::ui::{Notice, Settings, Widget};
+use crate::window::ui::{Notice, Settings};
 use motion_lab_core::configuration::Configuration as _;
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::{Playback, Transport};
 
 /// Largest mark of a request, bytes.

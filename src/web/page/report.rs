@@ -10,11 +10,11 @@ use super::listener::tell;
 use crate::web::mirror::mirror;
 use crate::web::runs::RunParts;
 use crate::window::for_page::{Interface, Shown};
-use crate::window::ui::{AtlasState, LessonState, PlanState, Settings, Widget};
+use crate::window::ui::{AtlasState, LessonState, PlanState, Settings};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, Theme, readout};
 use motion_lab_core::robots::AnyRobot;
-use motion_lab_sim::manifest::ThemeChoice;
+use motion_lab_sim::manifest::{ThemeChoice, Widget};
 use motion_lab_sim::run::Recipe;
 use motion_lab_sim::simulation::{Playback, Transport, recipe};
 

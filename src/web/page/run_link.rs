@@ -5,10 +5,10 @@ use bevy::ecs::world::World;
 use super::error::PageError;
 use crate::web::link::Link;
 use crate::window::for_page::{Interface, SessionError, new_run, shown_run};
-use crate::window::ui::{AnatomyState, Notice, Widget};
+use crate::window::ui::{AnatomyState, Notice};
 use motion_lab_core::configuration::Configuration as _;
 use motion_lab_sim::anatomy::Anatomy;
-use motion_lab_sim::manifest::ThemeChoice;
+use motion_lab_sim::manifest::{ThemeChoice, Widget};
 use motion_lab_sim::run::Digest;
 use motion_lab_sim::simulation::{Playback, Transport, seek};
 

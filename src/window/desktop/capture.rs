@@ -13,8 +13,9 @@ use super::files::name;
 use crate::capture::{film_with_robots, paint, write};
 use crate::window::captured::{captured, subject};
 use crate::window::run_files::shown_run;
-use crate::window::ui::{CaptureOrder, Interface, Notice, UiState, Widget, Working};
+use crate::window::ui::{CaptureOrder, Interface, Notice, UiState, Working};
 use motion_lab_sim::capture::{CaptureError, CaptureForm, Paper};
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::Transport;
 use motion_lab_sim::tour::TourConfig;
 

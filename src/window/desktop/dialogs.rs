@@ -10,10 +10,11 @@ use super::capture::{capture, check, not_captured};
 use super::files::{PATH, WORLD, open_any, open_path, open_run, open_world, save_path, save_run, save_world};
 use crate::window::error::SessionError;
 use crate::window::ui::paint::style::ScreenTheme;
-use crate::window::ui::{CaptureOrder, Interface, Notice, SessionCommand, UiState, Widget};
+use crate::window::ui::{CaptureOrder, Interface, Notice, SessionCommand, UiState};
 use egui_file_dialog::{DialogMode, DialogState, FileDialog, FileDialogLabels};
 use motion_lab_core::picture::Role;
 use motion_lab_core::random::Seed;
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::{Playback, RunConfig, Transport};
 
 /// File extension of the lab's logs.

@@ -10,7 +10,8 @@ use super::persistence::autosave::note_in_file;
 use crate::output::write_file;
 use crate::window::error::SessionError;
 use crate::window::run_files::{open_log, open_path_text, open_world_text, path_text, save};
-use crate::window::ui::{Interface, Notice, Widget};
+use crate::window::ui::{Interface, Notice};
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::plans::MAX_PATH_BYTES;
 use motion_lab_sim::simulation::Transport;
 

@@ -239,12 +239,12 @@ fn the_menu_lists_the_files_opened_and_saved_last_and_opens_them() {
     click(&mut harness, "Drive");
     open_menu(&mut harness);
     click(&mut harness, "b.ron");
-    assert_eq!(interface(&harness).widget, crate::window::ui::Widget::Atlas);
+    assert_eq!(interface(&harness).widget, motion_lab_sim::manifest::Widget::Atlas);
     assert_eq!(interface(&harness).notice().unwrap().text, "b.ron: opened");
     assert_eq!(recent(&mut harness), ["b.ron", "a.mcap"]);
     open_menu(&mut harness);
     click(&mut harness, "a.mcap");
-    assert_eq!(interface(&harness).widget, crate::window::ui::Widget::Dashboard);
+    assert_eq!(interface(&harness).widget, motion_lab_sim::manifest::Widget::Dashboard);
     assert!(interface(&harness).notice().unwrap().text.contains("bit-identical"));
     // one that has gone is said so and leaves the list
     fs::remove_file(at("b.ron")).unwrap();

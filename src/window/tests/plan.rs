@@ -169,7 +169,7 @@ fn a_path_is_played_as_a_run_and_drawn_over_it() {
     harness.run_steps(4);
     assert_eq!(harness.state().transport().seed.0, 2006, "the seed that the script was made for");
     let world = harness.state().app.world();
-    assert_eq!(world.resource::<Interface>().0.widget, crate::window::ui::Widget::Dashboard);
+    assert_eq!(world.resource::<Interface>().0.widget, motion_lab_sim::manifest::Widget::Dashboard);
     assert_eq!(harness.state().transport().playback, Playback::Playing);
     assert!(plan(&harness).over_world("Workbench").is_some() && plan(&harness).over_world("Lot").is_none());
     harness.get_by_label("Reach \u{b7} Workbench \u{b7} on its path");

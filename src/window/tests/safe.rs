@@ -1,9 +1,10 @@
 //! What a stranger tripped over: fading, hints, notices, refusals, the seed, plots, sizes down to a point.
 
 use super::*;
+use crate::window::ui::Settings;
 use crate::window::ui::paint::style::ScreenTheme;
-use crate::window::ui::{Settings, Widget};
 use motion_lab_core::picture::{Role, Theme};
+use motion_lab_sim::manifest::Widget;
 
 fn ui(harness: &mut Harness<'_, Lab>, change: impl FnOnce(&mut crate::window::ui::UiState)) {
     change(&mut harness.state_mut().app.world_mut().resource_mut::<Interface>().0);

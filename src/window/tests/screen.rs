@@ -84,7 +84,7 @@ fn a_phone_shows_one_pane_at_a_time_and_all_can_be_reached() {
 fn all_widgets_are_on_the_rail_of_the_narrowest_screen() {
     // 352 points: a phone's page at 400 %, with the 32 points that it may scroll sideways
     let harness = lab([352.0, 640.0]);
-    for widget in crate::window::ui::Widget::ALL {
+    for widget in motion_lab_sim::manifest::Widget::ALL {
         let rect = harness.get_by_label(widget.text().short()).rect();
         assert!(rect.right() <= 352.0 && rect.width() > 44.0, "{}: {rect:?}", widget.id());
     }

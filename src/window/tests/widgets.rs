@@ -7,7 +7,7 @@ mod numbers;
 mod tasks_done;
 
 use super::*;
-use crate::window::ui::Widget;
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::TransportCommand;
 
 /// Puts the widget with this word on the rail in front.

@@ -3,7 +3,8 @@
 use bevy_egui::egui::{Context, Id, Key, Modal, Modifiers, RichText, TextStyle};
 
 use super::paint::button::LabButton;
-use super::{Closing, Command, FrameColours, SessionCommand, UiState, Widget};
+use super::{Closing, Command, FrameColours, SessionCommand, UiState};
+use motion_lab_sim::manifest::Widget;
 
 /// Shows the question over everything else. Escape and a click beside it keep the window open; so does saving one of
 /// the worlds, which asks for a file.

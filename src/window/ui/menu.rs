@@ -7,8 +7,8 @@ use super::paint::button::LabButton;
 use super::paint::icon::Icon;
 use super::paint::plate::{PlateAnchor, plate, refusal};
 use super::paint::{fold, frame};
-use super::{Command, Dashboard, FrameColours, Notice, SessionCommand, UiState, Widget, WidgetText};
-use motion_lab_sim::manifest::ThemeChoice;
+use super::{Command, Dashboard, FrameColours, Notice, SessionCommand, UiState};
+use motion_lab_sim::manifest::{ThemeChoice, Widget, WidgetText};
 use motion_lab_sim::simulation::TransportCommand;
 
 /// Carries out an action on the session.

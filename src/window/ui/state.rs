@@ -7,12 +7,12 @@ use bevy_egui::egui::Rect;
 use super::atlas::Mode;
 use super::paint::camera::Camera;
 use super::time::span::TickSpan;
-use super::{AtlasState, CockpitRobot, ParkingGoal, Settings, Widget};
+use super::{AtlasState, CockpitRobot, ParkingGoal, Settings};
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Shape};
 use motion_lab_core::picture::{Role, Theme};
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
-use motion_lab_sim::manifest::HintTask;
+use motion_lab_sim::manifest::{HintTask, Widget};
 
 /// The state of the user interface, as a resource of the app.
 #[derive(bevy::prelude::Resource, Default)]

@@ -1,9 +1,8 @@
 //! Readings drawn from a [`BeamModel`], the noise of a real range finder.
 
-use super::RangeSensor;
 use crate::num::{exp, ln};
 use crate::random::{DRAWS_PER_INDEX, Stream};
-use crate::worlds::BeamModel;
+use crate::worlds::{BeamModel, RangeSensor};
 
 /// How many draws a reading takes: one for its kind, one for its place, two for a normal number.
 const DRAWS: u64 = 4;

@@ -53,7 +53,7 @@ pub(super) fn raise([ax, ay, bx, by]: [&[f64]; 4], view: &View, kernel: &Kernel,
 macro_rules! kernel {
     ($name:ident $(, #[$target:meta])?) => {
         pub(super) mod $name {
-            use super::*;
+            use crate::sensors::kernel::*;
 
             $(#[$target])?
             fn turn(fan: &mut Fan, units: &[[Lanes; 2]], heading: SinCos) {

@@ -8,10 +8,10 @@ use super::kernel::{Kernel, raise};
 use super::rays::{Fan, Lanes};
 use super::simd::Instructions;
 use super::view::View;
-use super::{FanSensor, RangeSensor};
 use crate::collision::{Circle, LANES, Scene, SegmentSoup, touch};
 use crate::geometry::{Aabb, Placed, Point2, Pose2, SinCos};
 use crate::num;
+use crate::worlds::{FanSensor, RangeSensor};
 
 /// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates
 /// nothing.

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use bevy::app::App;
 
-use super::{Recorder, RunError, RunInput};
-use crate::run::{DIGEST_TICKS, Frame, Log, LogKind, Recipe, Recorded, RunDigest, SecondDigests};
+use super::{Recorder, RunError};
+use crate::run::{DIGEST_TICKS, Frame, Log, LogKind, Recipe, Recorded, RunDigest, RunInput, SecondDigests};
 use crate::tour::TourConfig;
 
 /// Records and replays whole runs.

@@ -8,7 +8,7 @@ use motion_lab::recording::Run;
 use motion_lab::run::{Log, Script};
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
-use super::{Capture, RunArgs};
+use super::args::{Capture, RunArgs};
 use crate::cli::commands::query::Chosen;
 use crate::cli::support::choices::KINDS;
 use crate::cli::support::log_source::{LogSource, read_full_log};

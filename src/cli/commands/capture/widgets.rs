@@ -8,7 +8,7 @@ use motion_lab::picture::{Item, readout};
 use motion_lab::robots::Robot;
 use motion_lab::worlds::World;
 
-use super::SceneArgs;
+use super::args::SceneArgs;
 use crate::cli::Failure;
 use crate::cli::commands::query::Chosen;
 use crate::cli::support::choices::{CHOSET, NumberList};

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 
 use crate::cli::support::console::note;
 use crate::cli::support::output::write_file;
-use crate::cli::{Cli, Data, Failure, Outcome};
+use crate::cli::{Data, Failure, Outcome};
 use clap_mangen::Man;
 
 /// Print the manual page, or write the pages of all commands to a folder.
@@ -23,9 +23,8 @@ pub struct ManPages {
 }
 
 impl ManPages {
-    /// Runs the command.
-    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let mut program = Cli::command();
+    /// Runs the command: pages about this program.
+    pub fn run(self, mut program: Command, data: &mut Data) -> Result<Outcome, Failure> {
         program.build();
         match &self.output {
             None => data.text(&page(&program)?)?,

@@ -5,10 +5,10 @@ mod shells;
 
 pub use manual::ManPages;
 
-use clap::{Args, CommandFactory};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
-use crate::cli::{Cli, Data, Failure, Outcome};
+use crate::cli::{Data, Failure, Outcome};
 
 /// Print the completions for a shell.
 #[derive(Debug, Args)]
@@ -25,10 +25,10 @@ pub struct Completions {
 }
 
 impl Completions {
-    /// Runs the command.
-    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+    /// Runs the command: completions of this program.
+    pub fn run(self, mut program: Command, data: &mut Data) -> Result<Outcome, Failure> {
         let mut text = Vec::new();
-        clap_complete::generate(self.shell, &mut Cli::command(), shells::NAME, &mut text);
+        clap_complete::generate(self.shell, &mut program, shells::NAME, &mut text);
         let text = String::from_utf8(text).map_err(Failure::internal)?;
         data.text(&shells::mended(self.shell, &text))?;
         Ok(Outcome::Done)

@@ -6,7 +6,7 @@ use motion_lab::planning::{Effort, NoPath};
 use motion_lab::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
 
-use super::next;
+use super::advice::next;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure};
 

@@ -10,8 +10,8 @@ use motion_lab::plans::{PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
 use serde::Serialize;
 
-use super::PlanArgs;
 use super::answer::PlanAnswer;
+use super::args::PlanArgs;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::output::write_file;
 use crate::cli::support::progress::CommandProgress;
@@ -64,7 +64,7 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
                         data.json(&PlanAnswer::of_none(task, planner, seed, &reason))?;
                         return Ok(Outcome::NoPath);
                     }
-                    say(format!("{}\n{}", super::in_words(&reason.to_string()), super::next(&reason)));
+                    say(format!("{}\n{}", super::advice::in_words(&reason.to_string()), super::advice::next(&reason)));
                     return Ok(Outcome::NoPath);
                 }
             }

@@ -8,8 +8,8 @@ use motion_lab::robots::{AnyRobot, Robot};
 use motion_lab::sensors::RangeSensor;
 use serde::Serialize;
 
-use super::Question;
 use super::line::check_place;
+use super::question::Question;
 
 /// An answer; each kind is a JSON object of its own.
 #[derive(Debug, Serialize)]

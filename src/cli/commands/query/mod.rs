@@ -6,13 +6,15 @@ mod chosen;
 mod dimensions;
 mod line;
 mod lines;
+mod question;
 
+pub use question::Question;
 use std::fs::Metadata;
 use std::io;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use motion_lab::collision::Scene;
 use motion_lab::sensors::RangeSensor;
 use serde::Serialize;
@@ -93,33 +95,6 @@ pub struct Query {
     /// The scan's greatest range, metres, 0.001 to 10000.
     #[arg(long, default_value_t = 4.0)]
     range: f64,
-}
-
-/// A question that can be asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Question {
-    /// Whether the robot touches anything.
-    Intersects,
-    /// How far it is from the nearest obstacle.
-    Distance,
-    /// The nearest points, and what they lie on.
-    Witness,
-    /// Whether the motion to TO hits, each part moving in a straight line.
-    Swept,
-    /// What is known of the straight line of the configuration chart to TO.
-    Edge,
-    /// What a range sensor there sees.
-    Scan,
-}
-
-impl Question {
-    /// Whether it is about a motion, not about one configuration.
-    fn is_of_motion(self) -> bool {
-        match self {
-            Question::Swept | Question::Edge => true,
-            Question::Intersects | Question::Distance | Question::Witness | Question::Scan => false,
-        }
-    }
 }
 
 impl Query {

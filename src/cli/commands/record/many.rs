@@ -2,18 +2,18 @@
 
 use std::path::Path;
 
-use motion_lab::random::Seed;
-use motion_lab::run::Recipe;
 use rayon::prelude::*;
 
+use super::args::RecordArgs;
 use super::one::{Ended, StopRule, refused_in_words, run, write_run};
 use super::seeds::SeedRange;
 use super::written::RecordedLogs;
-use super::{Outcome, RecordArgs};
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::support::target::Target;
-use crate::cli::{Data, Failure, say};
+use crate::cli::{Data, Failure, Outcome, say};
+use motion_lab::random::Seed;
+use motion_lab::run::Recipe;
 
 /// Number of runs per thread in a batch. The lines of a batch are printed when all its runs have ended.
 const AHEAD: u64 = 4;

@@ -5,7 +5,7 @@ use motion_lab::run::{DT, Script};
 use motion_lab::sensors::RangeSensor;
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
-use super::RecordArgs;
+use super::args::RecordArgs;
 use super::choice::choose;
 use crate::cli::Failure;
 use crate::cli::support::input::read_text;

@@ -6,7 +6,7 @@ use std::time::Instant;
 use motion_lab::batch::{Shard, Study};
 use tempfile::TempDir;
 
-use super::Keep;
+use super::keep::Keep;
 use super::one::{self, Ran};
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::CommandProgress;

@@ -2,6 +2,7 @@
 
 mod estimate;
 mod journal;
+mod keep;
 mod list;
 mod load;
 mod merge;
@@ -12,9 +13,10 @@ mod reproduce;
 mod shard;
 mod shards;
 
+pub use keep::Keep;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 
 use crate::cli::{Data, Failure, Outcome};
 use merge::Merge;
@@ -65,19 +67,6 @@ pub struct SweepArgs {
     /// Measure a few runs, say how long all take and how much room, and keep nothing.
     #[arg(long, conflicts_with = "output")]
     estimate: bool,
-}
-
-/// The runs whose full logs are kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Keep {
-    /// None.
-    None,
-    /// Those with contacts.
-    Contacts,
-    /// Those that failed, where they could be run at all.
-    Failures,
-    /// All.
-    All,
 }
 
 #[derive(Debug, Subcommand)]

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use motion_lab::batch::{RowGatherer, RunRow, Study};
 use motion_lab::run::LogKind;
 
-use super::Keep;
+use super::keep::Keep;
 use super::planned::{PlannedInputs, made};
 use crate::cli::Failure;
 use crate::cli::commands::record::{self, Ended, StopRule, partial_name, write_run, write_run_watched};

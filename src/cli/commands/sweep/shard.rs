@@ -10,8 +10,9 @@ use motion_lab::batch::{PartHead, PartReader, RunRow, Shard, Study};
 use rayon::prelude::*;
 
 use super::journal::Journal;
+use super::keep::Keep;
+use super::merge;
 use super::one::{self, Ran};
-use super::{Keep, merge};
 use crate::cli::support::console::note;
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;

@@ -10,10 +10,11 @@ use std::time::Duration;
 use bevy::prelude::*;
 
 use super::saved_run::{MAX_BYTES, SavedRun, SavedRunError, world_texts};
-use super::slot::{Slot, forget, left_behind, move_away, sweep};
+use super::slot::{Slot, folder_of_runs, forget, left_behind, move_away, sweep};
 use crate::window::background::{self, Background};
 use crate::window::error::SessionError;
-use crate::window::ui::{Interface, Notice, Offer, Widget};
+use crate::window::ui::{Interface, Notice, Offer};
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::run::Recipe;
 use motion_lab_sim::simulation::{
     LatestFrame, PendingInput, Playback, RunConfig, Transport, TransportCommand, checkpoint, is_under_way, recipe,
@@ -38,7 +39,7 @@ pub struct AutosavePlugin {
 
 impl Default for AutosavePlugin {
     fn default() -> Self {
-        AutosavePlugin { folder: super::folder_of_runs() }
+        AutosavePlugin { folder: folder_of_runs() }
     }
 }
 

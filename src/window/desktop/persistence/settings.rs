@@ -7,9 +7,11 @@ use bevy::prelude::*;
 use bevy::settings::{ReflectSettingsGroup, SaveSettingsDeferred, SaveSettingsSync, SettingsGroup, SettingsPlugin};
 use bevy::window::PrimaryWindow;
 
-use super::PROGRAM;
 use crate::window::ui;
 use crate::window::ui::{Interface, Recent};
+
+/// The name of the folder that the system keeps all of it in.
+pub const PROGRAM: &str = "motion-lab";
 
 /// Restores the settings at the start, and writes them a second after they change and at the end.
 pub struct PersistSettingsPlugin;

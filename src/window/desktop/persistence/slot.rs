@@ -1,11 +1,18 @@
 //! `Slot`, the files of this process's run under way, and those that other processes have left.
 
+use super::settings::PROGRAM;
+use bevy::platform::dirs::preferences_dir;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use crate::output::{unfinished, write_file};
+
+/// The folder of the runs under way; `None` where the system has no place for settings.
+pub fn folder_of_runs() -> Option<PathBuf> {
+    Some(preferences_dir()?.join(PROGRAM).join("runs"))
+}
 
 /// File extension of a run under way.
 const RUN: &str = "run";

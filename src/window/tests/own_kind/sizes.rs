@@ -2,11 +2,11 @@
 
 use super::super::*;
 use crate::window::session::new_run;
-use crate::window::ui::Widget;
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World as WorldModel;
 use motion_lab_sim::anatomy::{Anatomy, WorldSource};
+use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::run::Recipe;
 use motion_lab_sim::tour::TourConfig;
 

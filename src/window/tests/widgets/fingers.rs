@@ -3,7 +3,7 @@
 use super::layout::fresh;
 use super::lessons::ui;
 use super::*;
-use crate::window::ui::Widget;
+use motion_lab_sim::manifest::Widget;
 
 #[test]
 fn a_press_is_a_click_however_long_it_took_since_the_last_frame() {

@@ -2,7 +2,8 @@
 
 use super::*;
 use crate::window::tests::safe::{read_whole, words};
-use crate::window::ui::{Settings, Widget};
+use crate::window::ui::Settings;
+use motion_lab_sim::manifest::Widget;
 
 const TABLET: [f32; 2] = [820.0, 1180.0];
 const LOW: [[f32; 2]; 2] = [[640.0, 400.0], [844.0, 390.0]];

@@ -257,7 +257,7 @@ fn each_lesson_is_done_within_half_a_minute_and_a_few_clicks() {
 
 #[test]
 fn every_lesson_has_a_hint() {
-    let hints: Vec<String> = crate::window::ui::Widget::ALL
+    let hints: Vec<String> = motion_lab_sim::manifest::Widget::ALL
         .into_iter()
         .flat_map(|widget| &widget.text().hints)
         .map(|h| h.task.id())
@@ -310,7 +310,7 @@ fn a_hint_begins_its_lesson_and_all_tasks_ends_it() {
     let held = motion_lab_sim::manifest::Lesson::of("held").unwrap();
     ui(&mut reader.harness, |ui| {
         ui.settings.world = 2;
-        ui.settings.show_hints(crate::window::ui::Widget::Dashboard);
+        ui.settings.show_hints(motion_lab_sim::manifest::Widget::Dashboard);
     });
     reader.harness.run_steps(2);
     reader.click(motion_lab_sim::manifest::Lesson::of("two_elbows").unwrap().text());

@@ -8,7 +8,4 @@ mod shown;
 mod state;
 pub(crate) mod view;
 
-pub use state::{AtlasState, Mode};
-
-/// The side of a grid cell at first, metres.
-pub const FIRST_CELL: f64 = 0.25;
+pub use state::{AtlasState, FIRST_CELL, Mode};

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::state::Mode;
-use crate::window::ui::{AtlasState, readout};
+use crate::window::ui::AtlasState;
 use motion_lab_core::geometry::Point2;
-use motion_lab_core::picture::{Drawing, Item, Picture, Role, footprint};
+use motion_lab_core::picture::{Drawing, Item, Picture, Role, footprint, readout};
 use motion_lab_core::robots::Robot;
 use motion_lab_sim::atlas::{Atlas, Editor, GridLayer, names};
 use motion_lab_sim::capture::{self, AtlasSheet, Captured};

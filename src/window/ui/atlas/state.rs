@@ -11,6 +11,9 @@ use motion_lab_core::worlds::World;
 use motion_lab_sim::anatomy::WorldSource;
 use motion_lab_sim::atlas::{Atlas, EditShape, Editor, GridLayer, Op, TeleportRefusal, Template};
 
+/// The side of a grid cell at first, metres.
+pub const FIRST_CELL: f64 = 0.25;
+
 /// The effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
@@ -184,7 +187,7 @@ impl AtlasState {
             pressed: None,
             refused: None,
             wanted: None,
-            resolution: super::FIRST_CELL,
+            resolution: FIRST_CELL,
             selected: None,
             is_new: false,
             shape: None,

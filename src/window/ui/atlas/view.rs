@@ -13,8 +13,8 @@ use crate::window::ui::paint::frame::next_hint;
 use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
 use crate::window::ui::paint::sheet::{ScreenSheet, sheet, split};
 use crate::window::ui::paint::touch::worded;
-use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, SessionCommand, UiState, readout};
-use motion_lab_core::picture::{Item, Picture, ScreenPoint, pick};
+use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, SessionCommand, UiState};
+use motion_lab_core::picture::{Item, Picture, ScreenPoint, pick, readout};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::manifest::{HintTask, Widget};
 

@@ -9,11 +9,9 @@ use super::hand::handles;
 use super::{doors, twins};
 use crate::window::ui::paint::frame;
 use crate::window::ui::paint::scale_bar::scale_bar;
-use crate::window::ui::{
-    Cockpit, CockpitRobot, Command, FrameColours, Notice, ParkingGoal, SessionCommand, UiState, readout, readout_lines,
-};
+use crate::window::ui::{Cockpit, CockpitRobot, Command, FrameColours, Notice, ParkingGoal, SessionCommand, UiState};
 use motion_lab_core::configuration::RobotKind;
-use motion_lab_core::picture::{Fit, Role};
+use motion_lab_core::picture::{Fit, Role, readout, readout_lines};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::manifest::{Formula, Widget};
 use motion_lab_sim::run::{Quantized, RobotInput};

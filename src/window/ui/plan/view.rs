@@ -11,12 +11,12 @@ use crate::window::ui::keys::SessionAction;
 use crate::window::ui::paint::canvas::{self, MARGIN};
 use crate::window::ui::paint::frame::next_hint;
 use crate::window::ui::paint::sheet::{ScreenSheet, sheet, two_columns};
-use crate::window::ui::{Command, Dashboard, FrameColours, Notice, SessionCommand, UiState, readout};
+use crate::window::ui::{Command, Dashboard, FrameColours, Notice, SessionCommand, UiState};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::cspace::Slice;
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::num::wrap;
-use motion_lab_core::picture::{Picture, Role};
+use motion_lab_core::picture::{Picture, Role, readout};
 use motion_lab_sim::manifest::Widget;
 
 /// Width of the panel beside the papers, points.

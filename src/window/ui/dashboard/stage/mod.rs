@@ -26,9 +26,7 @@ use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, Grasp, UiStat
 use motion_lab_core::picture::{Picture, Role};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::History;
-
-/// Gap between panes, and between the panes and the window's border, points.
-pub const GAP: f32 = 20.0;
+pub use places::GAP;
 
 /// Largest height of a small cockpit's paper, points, and its share of the room.
 const SMALL: f32 = 190.0;

@@ -2,9 +2,11 @@
 
 use bevy_egui::egui::{Rect, pos2};
 
-use super::GAP;
 use crate::window::ui::Cockpit;
 use crate::window::ui::paint::canvas;
+
+/// Gap between panes, and between the panes and the window's border, points.
+pub const GAP: f32 = 20.0;
 
 /// Share of the stage's width for what stands beside the cockpit in front, and its bounds, points.
 const BESIDE: f32 = 0.34;

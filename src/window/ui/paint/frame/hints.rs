@@ -9,9 +9,9 @@ use super::super::touch::worded;
 use super::title::{misconception, rows_of_words};
 use crate::window::ui::keys::{self, SessionAction};
 use crate::window::ui::paint::style::ScreenTheme;
-use crate::window::ui::{FrameColours, LessonState, UiState, WidgetText};
+use crate::window::ui::{FrameColours, LessonState, UiState};
 use motion_lab_core::picture::Role;
-use motion_lab_sim::manifest::{Hint, HintTask, Lesson, Widget};
+use motion_lab_sim::manifest::{Hint, HintTask, Lesson, Widget, WidgetText};
 
 /// Largest number of hints shown at once.
 const FEW: usize = 4;

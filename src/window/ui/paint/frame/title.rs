@@ -5,8 +5,9 @@ use bevy_egui::egui::{
 };
 
 use crate::window::ui::paint::style::ScreenTheme;
-use crate::window::ui::{FrameColours, UiState, WidgetText};
+use crate::window::ui::{FrameColours, UiState};
 use motion_lab_core::picture::Role;
+use motion_lab_sim::manifest::WidgetText;
 
 /// Shows title and misconception. They do not fade when a role is lit.
 pub fn title(ui: &mut Ui, widget: &WidgetText, look: &FrameColours) {

@@ -1,0 +1,21 @@
+//! What to do where there is no path.
+
+use motion_lab::planning::NoPath;
+
+/// What to do where there is no path.
+pub(super) fn next(reason: &NoPath) -> &'static str {
+    match reason {
+        NoPath::Problem(_) => "Choose another --from or --to; `motion-lab query witness` says what is in the way.",
+        NoPath::Exhausted { .. } => "There may be one: allow more --iterations, or try another --seed or --planner.",
+        NoPath::NoneInGraph { .. } | NoPath::LocalMinimum { .. } | NoPath::GaveUp(_) => {
+            "There may be one: try another --planner."
+        }
+        NoPath::Unsuited(_) => "Try another --planner.",
+        _ => "Choose another --to.",
+    }
+}
+
+/// Why there is no path, in a sentence that says so.
+pub(super) fn in_words(reason: &str) -> String {
+    if reason.starts_with("no path") { reason.to_owned() } else { format!("no path: {reason}") }
+}

@@ -1,0 +1,89 @@
+//! `PlanArgs`, what `plan` is asked for.
+
+use super::task;
+use crate::cli::commands::record::SeedRange;
+use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames};
+use crate::cli::support::paper::PaperArgs;
+use clap::Args;
+use motion_lab::plans::PlannerName;
+use std::path::PathBuf;
+
+/// Plan a path that is proven free along its whole length, or say why there is none.
+///
+/// A path is certified: every leg has the steps that prove it free, and a verifier of its own has checked them before
+/// the path is printed. Where no path is found within the bound on iterations, where the start or the goal is in
+/// contact, or where a planner has searched all that it looks at, that is said, and the exit code is 4.
+///
+/// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
+/// the run in which the script plays it, with --svg to a picture, with --gif to a film of the planner's growth. What
+/// can't be played is refused when the script is made.
+///
+/// With --compare several planners work on the same problem at several seeds; --csv has a row for each attempt.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab plan --robot reach --from 2.0,0 --to 3.1,0 --svg path.svg --gif growth.gif
+  motion-lab plan --planner rrt-connect --robot reach --from 2.0,0 --to 3.1,0 --seed 7 -o path.json --script out.ron
+  motion-lab plan --robot hitch --from 6.5,2.5,0,0 --to 6.75,7,-1.5707963,-1.5707963 --record parked.mcap
+  motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv")]
+pub struct PlanArgs {
+    /// The planner. [default: hybrid-a-star for a car, rrt-connect for any other robot]
+    #[arg(long, value_name = "PLANNER", value_parser = task::planner_name(), conflicts_with = "compare")]
+    pub(super) planner: Option<PlannerName>,
+    /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty
+    /// (x,y), reach (th1,th2), choset (the same arm without thickness), reach3 (th1,th2,th3), hitch (x,y,theta;
+    /// with the trailer x,y,theta,psi).
+    #[arg(long, value_name = "NAME|KIND", value_parser = RobotsAndKinds, hide_possible_values = true)]
+    pub(super) robot: String,
+    /// A built-in world or the path of a world file; the robot's home when left out.
+    #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
+    pub(super) world: Option<String>,
+    /// Where the path begins: numbers joined by commas, in metres and radians. [default: where the robot starts]
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    pub(super) from: Option<NumberList>,
+    /// Where the path ends.
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
+    pub(super) to: NumberList,
+    /// The seed of the planner's samples, and of the run that plays the path.
+    #[arg(long, default_value_t = 2005, conflicts_with = "compare")]
+    pub(super) seed: u64,
+    /// The greatest number of iterations. [default: 20000 for hybrid-a-star, 100000 for any other planner]
+    #[arg(long, value_name = "N")]
+    pub(super) iterations: Option<u64>,
+    /// A rover is planned this much larger, metres, so that its script may stray from the path by as much: 0 to 1.
+    #[arg(long, value_name = "METRES", default_value_t = 0.02)]
+    pub(super) tube: f64,
+    /// Write the path to this file, as JSON.
+    #[arg(short, long, value_name = "FILE", conflicts_with = "compare")]
+    pub(super) output: Option<PathBuf>,
+    /// Write what the planner has grown to the path's file too.
+    #[arg(long, requires = "output")]
+    pub(super) growth: bool,
+    /// Write the script that plays the path to this file.
+    #[arg(long, value_name = "FILE", conflicts_with = "compare")]
+    pub(super) script: Option<PathBuf>,
+    /// Play the path, and write the log of the run to this file.
+    #[arg(long, value_name = "FILE", conflicts_with = "compare")]
+    pub(super) record: Option<PathBuf>,
+    /// Write a picture of the path and of what the planner has grown to this file, as SVG, or as PNG if its
+    /// name ends so.
+    #[arg(long, value_name = "FILE", conflicts_with = "compare")]
+    pub(super) svg: Option<PathBuf>,
+    /// Write how the planner grows, in the workspace and in the configuration space, to this file as GIF.
+    #[arg(long, value_name = "FILE", conflicts_with = "compare")]
+    pub(super) gif: Option<PathBuf>,
+    /// Print the result as JSON.
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Compare these planners, joined by commas.
+    #[arg(long, value_parser = task::planner_name(), value_delimiter = ',', value_name = "PLANNERS")]
+    pub(super) compare: Vec<PlannerName>,
+    /// The seeds of a comparison, without the last.
+    #[arg(long, value_name = "A..B", requires = "compare")]
+    pub(super) seeds: Option<SeedRange>,
+    /// Write a row for each attempt of a comparison to this file, as CSV.
+    #[arg(long, value_name = "FILE", requires = "compare")]
+    pub(super) csv: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) paper: PaperArgs,
+}
