@@ -153,7 +153,7 @@ fn a_report_shows_distributions_worst_runs_and_failures() {
     run_in(at, &["sweep", "report", "all.parquet", "-o", "all.html"]).done();
     run_in(at, &["sweep", "report", "all.parquet", "-o", "all.svg"]).done();
     let (page, figure) = ["all.html", "all.svg"].map(|name| fs::read_to_string(at.join(name)).unwrap()).into();
-    assert!(page.contains("<p>60 runs, 40 of them failed. Plan ") && page.contains(&figure) && !page.contains("NaN"));
+    assert!(page.contains("<p>60 runs, 40 of them failed. Study ") && page.contains(&figure) && !page.contains("NaN"));
     assert!(page.contains("Varied: seed (10 values), Rusty.start.x (3 values), Rusty.noise.sigma_hit (2 values)."));
     // forty runs have a path; twenty reach their goal, at once
     for said in ["path, m of 40 runs goes from ", "least clearance, m of 40 runs goes from "] {

@@ -186,7 +186,7 @@ fn a_report_links_to_the_runs_that_a_link_can_hold() {
     assert!(page(&[]).contains("<a href=\"http://localhost:8000/?v=1&amp;"));
     // parameters are called as the study calls them, and `ticks` are no unit of `ticks`
     for title in
-        ["<th title=\"varied by the plan\">world</th>", ">ticks</th>", ">seed</th>", ">least clearance, m</th>"]
+        ["<th title=\"varied by the study\">world</th>", ">ticks</th>", ">seed</th>", ">least clearance, m</th>"]
     {
         assert!(shown.contains(title), "{title}");
     }

@@ -1,4 +1,4 @@
-//! `sweep` of a study with a planner: the path that `study` finds, the run that its script drives.
+//! `sweep` of a study with a planner: the path that `plan` finds, the run that its script drives.
 
 use std::fs;
 
@@ -148,7 +148,7 @@ fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
     );
     run_in(folder.path(), &["sweep", "plan.ron", "-o", "parts"]).done();
     let part = fs::read_to_string(folder.path().join("parts/part-1-of-1.sweep")).unwrap();
-    assert!(part.contains("it studies straight lines, which no car can drive"), "{part}");
+    assert!(part.contains("it plans straight lines, which no car can drive"), "{part}");
 }
 
 #[cfg(unix)]

@@ -37,4 +37,4 @@ pub use robot::{Gait, RobotDrawing, ScanDrawing, fan_scan, footprint, robot, sca
 pub use robot::{chevron, nose};
 pub use role::{Palette, Rgb, Role};
 pub use theme::Theme;
-pub use world::{door_id, places, world};
+pub use world::{Thing, places, world};

@@ -7,6 +7,7 @@ mod gait;
 mod rover;
 
 use super::outline::polygon_of;
+use super::world::Thing;
 use super::{Drawing, Fill, Glyph, Item, Line, Role};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num;
@@ -62,7 +63,7 @@ fn part_item(id: String, name: &str, part: &Part, role: Role, opacity: f64) -> I
 pub fn robot(drawing: &RobotDrawing<'_>) -> Vec<Item> {
     let role = if drawing.in_contact { Role::Goal } else { Role::Robot };
     let RobotDrawing { name, footprint: covered, heading, model, gait, .. } = drawing;
-    let id = format!("robot/{name}");
+    let id = Thing::Robot(name).to_string();
     let parts = covered.parts();
     let item = |part: &str, role, drawn| Item::new(format!("{id}/{part}"), *name, role, drawn);
     let is_car = matches!(model, Some(AnyRobot::Hitch(_)));

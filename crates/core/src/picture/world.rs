@@ -1,5 +1,7 @@
 //! Draws a world as a picture.
 
+use std::fmt;
+
 use super::outline::{chains, outline, polygon_of};
 use super::{Anchor, Dash, Drawing, Face, Fill, Glyph, Item, Line, Picture, Role};
 use crate::geometry::{Point2, Vector2};
@@ -9,18 +11,84 @@ use crate::worlds::{Door, Obstacle, ObstacleKind, Place, World};
 /// How far the drawn corners of a route may stray from it, metres.
 const STRAY: f64 = 0.01;
 
+/// A thing of a world that items are drawn for, by its name. It prints as the id of its first item; the ids of others
+/// go on after a slash.
+///
+/// ```
+/// use motion_lab_core::picture::{Thing, world};
+/// use motion_lab_core::worlds::World;
+/// let lot = world(&World::lot());
+/// let pillar = lot.items.iter().find(|item| Thing::of(item) == Some(Thing::Obstacle("the west pillar"))).unwrap();
+/// assert_eq!(pillar.id, Thing::Obstacle("the west pillar").to_string());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Thing<'a> {
+    /// A wall or a solid obstacle.
+    Obstacle(&'a str),
+    /// A door: its first item lies over its gap, the one to pick it by.
+    Door(&'a str),
+    /// A named place.
+    Place(&'a str),
+    /// A painted mark.
+    Mark(&'a str),
+    /// A route.
+    Route(&'a str),
+    /// A robot.
+    Robot(&'a str),
+}
+
+/// A kind of things, as ids begin.
+type ThingKind = (&'static str, for<'a> fn(&'a str) -> Thing<'a>);
+
+const THING_KINDS: [ThingKind; 6] = [
+    ("obstacle", |name| Thing::Obstacle(name)),
+    ("door", |name| Thing::Door(name)),
+    ("place", |name| Thing::Place(name)),
+    ("mark", |name| Thing::Mark(name)),
+    ("route", |name| Thing::Route(name)),
+    ("robot", |name| Thing::Robot(name)),
+];
+
+impl<'a> Thing<'a> {
+    /// The thing that an item is drawn for; `None` for an item of anything else.
+    pub fn of(item: &'a Item) -> Option<Self> {
+        let (kind, _) = item.id.split_once('/')?;
+        THING_KINDS.iter().find(|(known, _)| *known == kind).map(|(_, thing)| thing(&item.name))
+    }
+
+    /// Its name.
+    pub const fn name(self) -> &'a str {
+        match self {
+            Thing::Obstacle(name)
+            | Thing::Door(name)
+            | Thing::Place(name)
+            | Thing::Mark(name)
+            | Thing::Route(name)
+            | Thing::Robot(name) => name,
+        }
+    }
+}
+
+impl fmt::Display for Thing<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let kind = THING_KINDS.iter().find(|(_, thing)| thing(self.name()) == *self).map_or("", |(kind, _)| kind);
+        write!(f, "{kind}/{}", self.name())
+    }
+}
+
 /// The picture of a world: routes and painted marks, then solid obstacles, then walls and closed doors, then open
 /// doors.
 ///
 /// An open door is its leaf, turned a quarter about its hinge, and a thin line over the gap; neither is an obstacle.
 pub fn world(world: &World) -> Picture {
     let marks = world.marks.iter().map(|mark| {
-        Item::new(format!("mark/{}", mark.name), &mark.name, Role::Muted, Drawing::Polyline(mark.points.clone()))
+        Item::new(Thing::Mark(&mark.name).to_string(), &mark.name, Role::Muted, Drawing::Polyline(mark.points.clone()))
             .stroked(Line::solid(1.0))
     });
     let routes = world.routes.iter().filter_map(|route| {
         let outline = route.path().ok()?.outline(STRAY);
-        let item = Item::new(format!("route/{}", route.name), &route.name, Role::Muted, Drawing::Polyline(outline));
+        let item =
+            Item::new(Thing::Route(&route.name).to_string(), &route.name, Role::Muted, Drawing::Polyline(outline));
         Some(item.stroked(Line::solid(1.0).dashed(Dash::Dashed)))
     });
     let of_kind = |kind| world.obstacles.iter().filter(move |o| o.kind == kind).map(obstacle);
@@ -32,22 +100,17 @@ pub fn world(world: &World) -> Picture {
         .with(world.doors.iter().flat_map(door))
 }
 
-/// The id of the item over a door's gap, the one to pick a door by.
-pub fn door_id(name: &str) -> String {
-    format!("door/{name}")
-}
-
 fn door(door: &Door) -> Vec<Item> {
     let item = |id: String, role, points| Item::new(id, &door.name, role, Drawing::Polyline(points));
-    let closed = vec![door.a, door.b];
+    let (id, closed) = (Thing::Door(&door.name), vec![door.a, door.b]);
     if !door.open {
-        return vec![item(door_id(&door.name), Role::Obstacle, closed).stroked(Line::solid(3.0))];
+        return vec![item(id.to_string(), Role::Obstacle, closed).stroked(Line::solid(3.0))];
     }
     let along = door.b - door.a;
     let leaf = vec![door.a, door.a + Vector2::new(-along.y, along.x)];
     vec![
-        item(door_id(&door.name), Role::Muted, closed).stroked(Line::solid(1.0).dashed(Dash::Dashed)),
-        item(format!("{}/leaf", door_id(&door.name)), Role::Muted, leaf).stroked(Line::solid(1.5)),
+        item(id.to_string(), Role::Muted, closed).stroked(Line::solid(1.0).dashed(Dash::Dashed)),
+        item(format!("{id}/leaf"), Role::Muted, leaf).stroked(Line::solid(1.5)),
     ]
 }
 
@@ -61,7 +124,7 @@ fn obstacle(obstacle: &Obstacle) -> Item {
         ObstacleKind::Wall => 2.0,
         ObstacleKind::Solid => 1.5,
     };
-    let id = format!("obstacle/{}", obstacle.name);
+    let id = Thing::Obstacle(&obstacle.name).to_string();
     Item::new(id, &obstacle.name, Role::Obstacle, Drawing::Region { pieces, outline: edges })
         .filled(Fill::Hatch)
         .stroked(Line::solid(width))
@@ -75,8 +138,8 @@ pub fn places(places: &[Place]) -> Vec<Item> {
 fn place(place: &Place) -> [Item; 3] {
     let at = place.pose.position();
     let (s, c) = num::sin_cos(place.pose.theta);
-    let item =
-        |part: &str, drawing| Item::new(format!("place/{}/{part}", place.name), &place.name, Role::Muted, drawing);
+    let id = Thing::Place(&place.name);
+    let item = |part: &str, drawing| Item::new(format!("{id}/{part}"), &place.name, Role::Muted, drawing);
     let text = place.name.clone();
     [
         item("way", Drawing::Arrow { from: at, along: Vector2::new(c, s) * 1e-3, min_px: 9.0 })
@@ -92,6 +155,28 @@ mod tests {
     use crate::geometry::Aabb;
     use crate::geometry::{Pose2, Shape};
     use crate::worlds::{Mark, Route};
+
+    #[test]
+    fn an_item_says_what_it_is_drawn_for() {
+        let named = [
+            Thing::Obstacle("a/b"),
+            Thing::Door("d"),
+            Thing::Place("p"),
+            Thing::Mark("m"),
+            Thing::Route("r"),
+            Thing::Robot("R"),
+        ];
+        let ids = ["obstacle/a/b", "door/d", "place/p", "mark/m", "route/r", "robot/R"];
+        assert_eq!(named.map(|thing| thing.to_string()), ids);
+        let dot = |id: String, name: &str| Item::new(id, name, Role::Muted, Drawing::Polyline(vec![]));
+        for thing in named {
+            // a part of it is drawn for it too
+            for id in [thing.to_string(), format!("{thing}/part")] {
+                assert_eq!(Thing::of(&dot(id, thing.name())), Some(thing));
+            }
+        }
+        assert_eq!([Thing::of(&dot("obstacle".into(), "a")), Thing::of(&dot("grid/lines".into(), "a"))], [None; 2]);
+    }
 
     #[test]
     fn everything_named_is_drawn_once_under_its_name() {

@@ -17,7 +17,7 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
     let way = |motion: &Vec<AnyConfiguration>| motion.iter().map(|q| robot.reference(q)).collect::<Vec<Point2>>();
     let mut items = vec![growth(drawn.edges.iter().map(way).collect())];
     for (i, q) in drawn.places().iter().enumerate() {
-        items.extend(footprint(&format!("place/{i}"), "on the way", &robot.footprint(q), Role::Path, 0.12));
+        items.extend(footprint(&format!("on the way/{i}"), "on the way", &robot.footprint(q), Role::Path, 0.12));
     }
     let [start, goal] = drawn.ends;
     items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Free, 0.4));

@@ -14,7 +14,7 @@ use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
 use crate::window::ui::paint::sheet::{ScreenSheet, sheet, split};
 use crate::window::ui::paint::touch::worded;
 use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, SessionCommand, UiState};
-use motion_lab_core::picture::{Item, Picture, ScreenPoint, pick, readout};
+use motion_lab_core::picture::{Picture, ScreenPoint, Thing, pick, readout};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::manifest::{HintTask, Widget};
 
@@ -185,10 +185,10 @@ fn edit(on: &ScreenSheet, moving: &Picture, still: &Picture, atlas: &mut AtlasSt
         let origin = on.fit.world_from_screen(from);
         let handle = atlas.handle_at(origin, 14.0 / on.fit.px_per_metre());
         if handle.is_none() {
-            let things = |i: &&Item| i.id.starts_with("place/") || i.id.starts_with("robot/");
-            let item = pick(moving, &on.fit, from, 4.0).filter(things);
-            let item = item.or_else(|| pick(still, &on.fit, from, 5.0));
-            atlas.pick(item.and_then(thing));
+            let moves = |thing: &Thing| matches!(thing, Thing::Place(_) | Thing::Robot(_));
+            let thing = pick(moving, &on.fit, from, 4.0).and_then(Thing::of).filter(moves);
+            let thing = thing.or_else(|| pick(still, &on.fit, from, 5.0).and_then(Thing::of));
+            atlas.pick(thing.filter(|thing| !matches!(thing, Thing::Route(_))).map(Thing::name));
         }
         atlas.begin_drag(origin, handle);
     }
@@ -200,19 +200,6 @@ fn edit(on: &ScreenSheet, moving: &Picture, still: &Picture, atlas: &mut AtlasSt
     if on.response.drag_stopped() || on.response.clicked() {
         atlas.end_drag();
     }
-}
-
-/// The name of the thing that an item is drawn for.
-fn thing(item: &Item) -> Option<&str> {
-    let id = &item.id;
-    if id.starts_with("door/") || id.starts_with("robot/") {
-        // of its gap or its leaf, or of one of its parts
-        return Some(&item.name);
-    }
-    if let Some(name) = id.strip_prefix("obstacle/").or(id.strip_prefix("mark/")) {
-        return Some(name);
-    }
-    id.strip_prefix("place/").and_then(|rest| rest.rsplit_once('/')).map(|(name, _)| name)
 }
 
 fn beside_the_paper(
