@@ -49,6 +49,27 @@ fn comments_keep_the_line_width() {
 }
 
 #[test]
+fn pages_keep_the_line_width() {
+    let mut prose = 0;
+    let pages = ["docs", "src/guide"].into_iter().flat_map(|folder| files(&root().join(folder), "md"));
+    let own = ["README.md", "CONTRIBUTING.md", "ARCHITECTURE.md", "CHANGELOG.md"].map(|page| root().join(page));
+    for path in pages.chain(own) {
+        let (mut is_code, text) = (false, fs::read_to_string(&path).unwrap());
+        for (number, line) in text.lines().enumerate() {
+            is_code ^= line.trim_start().starts_with("```");
+            // a row of a table has one line, and so has what a bench writes below its table
+            let is_one_line = line.starts_with(['|', '<']) || line.starts_with("Times are medians");
+            if !is_code && !is_one_line {
+                prose += 1;
+                let width = line.chars().count();
+                assert!(width <= 120, "{}:{}: {width} columns", path.display(), number + 1);
+            }
+        }
+    }
+    assert!(prose > 1500, "{prose} lines: this test no longer reads the pages");
+}
+
+#[test]
 fn no_room_is_crowded() {
     let mut rooms: BTreeMap<String, usize> = BTreeMap::new();
     for source in sources() {
