@@ -35,7 +35,6 @@ pub struct Column {
 /// Largest number of robots that have columns of their own. With more, rows hold what is known of all robots together.
 pub const MAX_ROBOT_COLUMNS: usize = 32;
 
-/// A robot that has columns of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct RobotColumns {
     pub name: String,
@@ -59,7 +58,6 @@ fn column(name: impl Into<String>, kind: CellKind, unit: &str, about: impl Into<
     Column { name, kind, unit: unit.to_owned(), about: about.into() }
 }
 
-/// The columns of one axis.
 fn of_axis(axis: &CheckedAxis) -> Vec<Column> {
     let name = axis.parameter.name();
     let about = "varied by the study";

@@ -12,7 +12,6 @@ use motion_lab_sim::tour::TourConfig;
 
 /// The goal of a run, and how long its robot was there.
 struct GoalWatch<'a> {
-    /// The robot's id.
     robot: usize,
     about: Option<&'static RobotKind>,
     at: &'a [f64],

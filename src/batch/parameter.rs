@@ -4,18 +4,14 @@ use super::values::AxisValue;
 use motion_lab_core::configuration::{RobotKind, Sizes};
 use motion_lab_core::worlds::{BeamModel, Resident, ResidentSensor, World};
 
-/// What an axis varies.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Parameter {
     /// Something of the whole run.
     Run(RunParameter),
-    /// Something of a robot.
     Robot {
-        /// The robot's name.
         robot: String,
         /// The robot's kind in the world that is the first to have it.
         kind: String,
-        /// What of it.
         of: RobotParameter,
     },
 }
@@ -36,10 +32,8 @@ pub(super) enum RunParameter {
     WarehouseRobots,
 }
 
-/// A parameter of a robot.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum RobotParameter {
-    /// Its whole start configuration.
     Start,
     /// A coordinate of its start.
     Coordinate(usize),
@@ -47,25 +41,20 @@ pub(super) enum RobotParameter {
     Size(String),
     /// A number of the noise of the run's sensor.
     Noise(&'static str),
-    /// A number of a sensor of its own.
     Sensor {
-        /// The sensor's name.
         sensor: String,
         /// `rays`, `range`, `field_of_view`, or a number of its noise.
         number: &'static str,
     },
 }
 
-/// The form of a parameter's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ValueForm {
     /// Whole numbers, with a unit.
     Whole(&'static str),
     /// Numbers, with a unit.
     Number(&'static str),
-    /// Names.
     Name,
-    /// Configurations.
     Start,
 }
 
@@ -247,7 +236,6 @@ impl RobotParameter {
         set_size(&mut own, name, 1.0).then(|| RobotParameter::Size(name.to_owned()))
     }
 
-    /// The parameters of a robot, in words.
     fn in_words(resident: &Resident) -> String {
         let name = &resident.name;
         let coordinates = RobotKind::of(&resident.kind).map_or(&[][..], |kind| kind.coordinates);

@@ -16,12 +16,7 @@ pub(super) enum Combinations {
     /// The first values of all axes, then the second ones, and so on.
     List,
     /// This many combinations, each axis drawn by itself.
-    Sample {
-        /// How many.
-        count: u64,
-        /// What decides the draws.
-        seed: u64,
-    },
+    Sample { count: u64, seed: u64 },
 }
 
 impl Combinations {

@@ -9,7 +9,6 @@ use super::points::Combinations;
 use super::values::Over;
 use motion_lab_sim::run::Digest;
 
-/// A study as written.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename = "Sweep", deny_unknown_fields)]
 pub(super) struct StudyText {
@@ -71,7 +70,6 @@ fn two_centimetres() -> f64 {
     0.02
 }
 
-/// A generated world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct WarehouseText {
@@ -103,7 +101,6 @@ pub(super) struct GoalText {
     pub within: Vec<f64>,
 }
 
-/// An axis as written.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct AxisText {

@@ -5,7 +5,6 @@ use std::fmt;
 use serde::de::{Deserializer, Error, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
-/// A number as written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum WrittenNumber {
     /// A number that a double holds as well as any.
@@ -79,7 +78,6 @@ impl Visitor<'_> for AnyNumber {
 pub(super) enum Over {
     /// The whole numbers from the first to the second, without it.
     Range(u64, u64),
-    /// These numbers.
     Values(Vec<WrittenNumber>),
     /// This many numbers evenly from the first to the second, both included.
     Steps(f64, f64, u64),
@@ -87,18 +85,15 @@ pub(super) enum Over {
     Uniform(f64, f64),
     /// Names: built-in worlds, or files.
     Names(Vec<String>),
-    /// Start configurations.
     Starts(Vec<Vec<f64>>),
 }
 
 /// The value of an axis in a row.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum AxisValue {
-    /// A whole number.
     Whole(u64),
     /// A number, in the parameter's unit.
     Number(f64),
-    /// A name.
     Name(String),
     /// The coordinates of a configuration.
     Start(Vec<f64>),

@@ -29,7 +29,6 @@ struct BackgroundWork {
     playback: Playback,
 }
 
-/// How a job ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Finish {
     Done,

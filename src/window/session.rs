@@ -78,7 +78,6 @@ struct DrawnWorld {
     standing: Arc<WorldModel>,
     picture: Arc<Picture>,
     atlas: Arc<Atlas>,
-    /// The number of its robots.
     robots: u32,
 }
 

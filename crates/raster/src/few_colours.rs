@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use motion_lab_core::picture::{Palette, Role};
 
-/// Largest number of colours.
 const MAX_COLOURS: usize = 256;
 
 /// A picture as a palette and an index per pixel.

@@ -25,13 +25,11 @@ pub struct Capturing(Option<CaptureJob>);
 
 struct CaptureJob {
     to: Destination,
-    /// The widget that is captured.
     widget: Widget,
     progress: Arc<CaptureProgress>,
     work: JoinHandle<Result<(), CaptureError>>,
 }
 
-/// Where a capture goes.
 enum Destination {
     File(PathBuf),
     Clipboard,

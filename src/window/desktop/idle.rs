@@ -13,7 +13,6 @@ use crate::window::ui::Interface;
 /// seconds after a change is kept within them.
 const FRAMES_TO_SLEEP: u32 = 4;
 
-/// The longest sleep.
 const LONGEST: Duration = Duration::from_secs(10);
 
 /// Lets a paused window sleep longer once nothing has happened in some frames. A frame a second would keep the

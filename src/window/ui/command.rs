@@ -46,10 +46,7 @@ pub(crate) enum SessionCommand {
     /// A new run in the atlas's world, with its robots where the atlas has them.
     RunFromHere,
     /// Put a robot of the run where the atlas has it.
-    PutRobot {
-        /// The robot's name.
-        robot: String,
-    },
+    PutRobot { robot: String },
     /// A new run of the three robots, each in its world.
     ThreeRobots,
     /// A new run in which a robot plays the plan's path.
@@ -60,7 +57,6 @@ pub(crate) enum SessionCommand {
     OpenPath,
     /// A new run in which an arm has this number of links.
     Links {
-        /// The arm's name.
         robot: String,
         /// The number of links: two or three.
         links: usize,

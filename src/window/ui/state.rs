@@ -135,7 +135,6 @@ pub struct Working {
 pub enum Closing {
     /// The window is to close, and edits would be lost: the question is shown.
     Asking,
-    /// It closes.
     Agreed,
 }
 
@@ -153,7 +152,6 @@ pub struct Offer {
 pub enum Grasp {
     /// The first handle of the arm with this name takes it.
     Take(String),
-    /// No handle has it.
     Leave,
 }
 

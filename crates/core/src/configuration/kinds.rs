@@ -44,7 +44,6 @@ impl PartialEq for Known {
 #[derive(Clone, PartialEq)]
 pub struct Kinds(BTreeMap<String, Known>);
 
-/// The lab's kinds.
 impl Default for Kinds {
     fn default() -> Self {
         RobotKind::ALL.into_iter().fold(Kinds(BTreeMap::new()), |kinds, kind| kinds.with(kind.name, kind))

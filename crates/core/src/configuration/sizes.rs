@@ -156,7 +156,6 @@ pub enum SizesError {
 }
 
 impl Sizes {
-    /// Rusty's.
     pub(super) fn of_rusty() -> Sizes {
         Sizes::Disc(DiscSizes::RUSTY)
     }
@@ -166,7 +165,6 @@ impl Sizes {
         Sizes::Arm(ArmSizes { base: Point2::new(0.0, 0.0), lengths: lengths.to_vec(), radius: 0.03 })
     }
 
-    /// Hitch's.
     pub(super) fn of_hitch() -> Sizes {
         Sizes::Car(CarSizes::HITCH)
     }

@@ -14,7 +14,6 @@ const SIDE: usize = 64;
 /// Least number of samples of a region that is named: some hundredths of the slice.
 const MIN_SAMPLES: usize = 40;
 
-/// Largest number of regions.
 const MAX_REGIONS: usize = 8;
 
 /// Least distance of two names, in samples: across, as a name is long, and up.

@@ -5,9 +5,7 @@ use crate::num;
 /// The sine and the cosine of an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SinCos {
-    /// The sine.
     pub(crate) sin: f64,
-    /// The cosine.
     pub(crate) cos: f64,
 }
 

@@ -227,7 +227,6 @@ fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [FigureEntry; 2] {
     [FigureEntry::Bare(Primitive::Lines { lines, role: Role::Muted, line: Line::solid(1.0) }), FigureEntry::Bare(label)]
 }
 
-/// Words on a baseline.
 fn text(left: f64, baseline: f64, text: &str, face: Face, size: f64, role: Role) -> Primitive {
     let at = [left, baseline - MIDDLE * size];
     Primitive::Text { at, anchor: Anchor::Right, text: text.into(), face, size, role, plate: false }

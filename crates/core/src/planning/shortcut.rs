@@ -77,7 +77,6 @@ impl<R: Robot<Configuration: Chart>> LinePath<R> {
     }
 }
 
-/// A path at work.
 struct PathDraft<'a, R: Robot> {
     checker: &'a Checker<R>,
     metric: &'a Metric,

@@ -12,9 +12,7 @@ use crate::collision::{Cells, GridCell, LANES, SegmentSoup};
 /// The boundary that a scan is cast at, and the grid over it.
 #[derive(Clone, Copy)]
 pub(super) struct Boundary<'a> {
-    /// The segments and discs.
     pub(super) soup: &'a SegmentSoup,
-    /// The grid's cells.
     pub(super) cells: &'a Cells,
 }
 
@@ -39,7 +37,6 @@ struct Pending {
     count: usize,
     /// The blocks that were open when the first of those was met. The pending segments can raise no ray of the others.
     open: u64,
-    /// Ends in structure-of-arrays order.
     arrays: Box<[Batch; 4]>,
 }
 

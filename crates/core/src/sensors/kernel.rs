@@ -23,7 +23,6 @@ use crate::geometry::SinCos;
 pub(super) struct Kernel {
     /// Turns the directions of the sensor's frame by a heading.
     pub(super) turn: fn(&mut Fan, &[[Lanes; 2]], SinCos),
-    /// Prepares segments.
     pub(super) make: fn(&mut PreparedSegments, [&[f64]; 4], &View),
     /// Raises the rays that meet the prepared segments.
     pub(super) raise: fn(&mut RayMemory, [&[f64]; 4], &View, &mut Fan),
@@ -31,7 +30,6 @@ pub(super) struct Kernel {
     pub(super) circle: fn(&Circle, &View, &mut Fan),
     /// Marks the blocks that have a ray that hits nothing within a box.
     pub(super) open: fn(&Fan, [f64; 4], &mut [u8]),
-    /// Writes the ranges.
     pub(super) ranges: fn(&Fan, f64, &mut [f64]),
 }
 

@@ -9,14 +9,13 @@ use crate::collision::LANES;
 /// hit in the cells visited so far.
 #[derive(Clone, Debug)]
 pub(super) struct Groups {
-    /// The number of blocks in a group.
     blocks: usize,
     /// The open groups, a bit each.
     open: u64,
     /// The sectors of the world in which each group's rays lie.
     sectors: Vec<u64>,
     /// For each block, 1 if it was open when last checked, else 0. `any` is the same for each group.
-    left: Vec<u8>,
+    open_lanes: Vec<u8>,
     any: [u8; 64],
 }
 
@@ -34,7 +33,7 @@ const NEARLY_ALL: f64 = 0.95;
 
 impl Default for Groups {
     fn default() -> Self {
-        Groups { blocks: 1, open: 0, sectors: Vec::new(), left: Vec::new(), any: [0; 64] }
+        Groups { blocks: 1, open: 0, sectors: Vec::new(), open_lanes: Vec::new(), any: [0; 64] }
     }
 }
 
@@ -49,7 +48,7 @@ impl Groups {
         // a turn in 40 bits, so that the rounding of up to 64 groups does not add up to anything
         let fixed = |turns: f64| (turns * 256.0 * TURN) as u64;
         let (begin, step) = (fixed(view.heading), fixed(turn));
-        self.left.resize(fan.blocks.len(), 1);
+        self.open_lanes.resize(fan.blocks.len(), 1);
         self.sectors.clear();
         self.sectors.extend((0..count as u64).map(|g| {
             let begin = ((begin + step * g) >> 8) as u32;
@@ -64,20 +63,20 @@ impl Groups {
     /// upper and lower side, metres. Returns the sectors of the world with open groups, a bit each.
     pub(super) fn close(&mut self, fan: &Fan, kernel: &Kernel, [right, left, upper, lower]: [f64; 4]) -> u64 {
         const NEAR: f64 = 1.0 + NEARER;
-        (kernel.open)(fan, [NEAR / right, -NEAR / left, NEAR / upper, -NEAR / lower], &mut self.left);
+        (kernel.open)(fan, [NEAR / right, -NEAR / left, NEAR / upper, -NEAR / lower], &mut self.open_lanes);
         if self.blocks > 1 {
-            for (g, blocks) in self.left.chunks(self.blocks).enumerate() {
-                let any = blocks.iter().fold(0, |any, left| any | left);
+            for (g, blocks) in self.open_lanes.chunks(self.blocks).enumerate() {
+                let any = blocks.iter().fold(0, |any, is_open| any | is_open);
                 self.any[g % 64] = any;
             }
         } else {
-            self.any[..self.left.len()].copy_from_slice(&self.left);
+            self.any[..self.open_lanes.len()].copy_from_slice(&self.open_lanes);
         }
         let (mut open, mut sectors) = (0, 0);
-        for (g, (left, mine)) in self.any.iter().zip(&self.sectors).enumerate() {
-            let left = u64::from(*left);
-            open |= left << g;
-            sectors |= left.wrapping_neg() & mine;
+        for (g, (is_open, mine)) in self.any.iter().zip(&self.sectors).enumerate() {
+            let is_open = u64::from(*is_open);
+            open |= is_open << g;
+            sectors |= is_open.wrapping_neg() & mine;
         }
         self.open = open;
         sectors

@@ -17,10 +17,8 @@ pub enum CellStyle {
     Hollow,
 }
 
-/// A rectangle of cells.
 #[derive(Clone, Copy)]
 struct Rectangle {
-    /// Its lower left corner.
     low: BorderCorner,
     /// Its upper right corner.
     high: BorderCorner,

@@ -93,7 +93,6 @@ struct Writer {
     out: String,
     elements: usize,
     selectors: usize,
-    /// Bytes of style sheets.
     styles: usize,
 }
 

@@ -29,7 +29,6 @@ pub struct Prompt {
 /// What a prompt asks about the anatomy that it shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum PromptQuestion {
-    /// The distance, metres.
     Distance,
     /// The angle of joint 2 at its first contact on the swept tab's motion, radians.
     FirstContact,

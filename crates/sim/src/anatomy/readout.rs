@@ -148,7 +148,6 @@ impl Anatomy {
         self.name(pair.witness.obstacle)
     }
 
-    /// An obstacle's name.
     pub(super) fn name(&self, obstacle: ObstacleId) -> String {
         self.checker().scene().obstacle_name(obstacle).unwrap_or("something").to_owned()
     }

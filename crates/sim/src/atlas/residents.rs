@@ -6,7 +6,6 @@ use motion_lab_core::configuration::{ArmSizes, Kinds, Sizes};
 use motion_lab_core::geometry::{Point2, Pose2, Vector2};
 use motion_lab_core::worlds::Resident;
 
-/// Where a robot starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Stand {
     /// The base of an arm.
@@ -31,7 +30,6 @@ pub(super) fn stand(robot: &Resident, kinds: &Kinds) -> Option<Stand> {
 }
 
 impl Stand {
-    /// The position.
     pub(super) fn at(self) -> Point2 {
         match self {
             Stand::Base(at) | Stand::Place(at) => at,

@@ -9,7 +9,8 @@ use motion_lab_core::worlds::{Obstacle, ObstacleKind};
 pub(super) struct OccupiedAreas(Vec<(Vec<Shape>, Scene)>);
 
 impl OccupiedAreas {
-    /// Adds a label with its leader.
+    /// Adds a label's shapes. Scenes are merged like binary digits (Bentley and Saxe, 1980), so n labels build in
+    /// O(n log n).
     pub(super) fn add(&mut self, mut shapes: Vec<Shape>) {
         while let Some((last, _)) = self.0.pop_if(|(last, _)| last.len() < 2 * shapes.len()) {
             shapes.extend(last);

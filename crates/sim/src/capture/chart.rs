@@ -17,7 +17,6 @@ pub(super) struct PlotLine {
     pub(super) contacts: Vec<[f64; 2]>,
 }
 
-/// Lines over axes.
 pub(super) struct PlotChart<'a> {
     /// What goes up, with its unit; it names the picture too.
     pub(super) up: &'a str,
@@ -240,7 +239,6 @@ struct Area {
 }
 
 impl Area {
-    /// Where a value is.
     fn at(&self, [x, y]: [f64; 2]) -> Point2 {
         let part = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
         Point2::new(

@@ -13,7 +13,6 @@ pub struct Distribution {
     pub values: Vec<f64>,
 }
 
-/// Largest number of bins.
 const MAX_BINS: usize = 40;
 
 /// The width of one histogram, pixels.

@@ -5,9 +5,7 @@ use std::f64::consts::PI;
 /// A mark of an axis, with its figure.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct AxisMark {
-    /// Where it is.
     pub(super) at: f64,
-    /// Its figure.
     pub(super) text: String,
 }
 
@@ -43,7 +41,6 @@ pub(super) fn marks([low, high]: [f64; 2], most: usize) -> Vec<AxisMark> {
     (first..=last).map(mark).collect()
 }
 
-/// The marks of an axis of angles.
 pub(super) fn angle_marks() -> Vec<AxisMark> {
     let marks = [
         (-PI, "\u{2212}\u{3c0}"),

@@ -10,7 +10,6 @@ const ROVER: [&str; 3] = ["left_wheel_rad", "right_wheel_rad", "waypoint"];
 /// One of the lists of numbers of a [`RobotState`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StateList {
-    /// The configuration.
     Configuration,
     /// The robot's own state beside it.
     Extra,

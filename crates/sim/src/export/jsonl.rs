@@ -11,7 +11,6 @@ use crate::run::{DT, Frame, Log, RobotScan, RobotState};
 use motion_lab_core::configuration::Kinds;
 use motion_lab_core::worlds::{Resident, World};
 
-/// A tick.
 #[derive(Serialize)]
 struct Tick<'a> {
     tick: u64,

@@ -10,9 +10,7 @@ use motion_lab_core::picture::Role;
 /// The position of a term relative to the line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Level {
-    /// On the line.
     Base,
-    /// A subscript.
     Sub,
     /// A superscript.
     Sup,

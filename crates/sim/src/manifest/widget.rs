@@ -14,7 +14,6 @@ pub enum Widget {
     Cspace,
     /// Worlds with their names, grids and the editor.
     Atlas,
-    /// A planner at work.
     Plan,
 }
 

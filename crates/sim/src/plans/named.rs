@@ -38,11 +38,9 @@ pub enum PlannerName {
 enum Plans {
     /// All that can go along straight lines of their charts.
     Lines,
-    /// Discs in the plane.
     Discs,
     /// Those whose space has two dimensions.
     Planes,
-    /// Cars.
     Cars,
 }
 
@@ -76,7 +74,6 @@ impl PlannerName {
         PlannerName::HybridAStar,
     ];
 
-    /// The table of planners.
     const fn about(self) -> About {
         use Plans::{Cars, Discs, Lines, Planes};
         match self {

@@ -201,7 +201,6 @@ fn visit_list(
 
 /// A visitor of the values of a frame.
 pub(super) trait FrameVisitor {
-    /// A value.
     fn value(&mut self, robot: Option<u32>, field: FrameField, value: Value);
 
     /// The number of obstacles that are not as at the start.

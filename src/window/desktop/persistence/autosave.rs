@@ -10,7 +10,7 @@ use std::time::Duration;
 use bevy::prelude::*;
 
 use super::saved_run::{MAX_BYTES, SavedRun, SavedRunError, world_texts};
-use super::slot::{Slot, folder_of_runs, forget, left_behind, move_away, sweep};
+use super::slot::{Slot, folder_of_runs, forget, left_behind, move_away, remove_stale_locks};
 use crate::window::background::{self, Background};
 use crate::window::error::SessionError;
 use crate::window::ui::{Interface, Notice, Offer};
@@ -59,7 +59,6 @@ pub struct Autosave {
     folder: PathBuf,
     /// The files of this window, from the first write on.
     slot: Option<Slot>,
-    /// The file being written.
     writing: Option<JoinHandle<SaveOutcome>>,
     /// The run as it was written last.
     written: Option<SavedRun>,
@@ -257,7 +256,7 @@ fn keep_at_the_end(world: &mut World, mut exits: Local<bevy::ecs::message::Messa
 /// Offers the last run that was left. One that can't be read is set apart, with a notice.
 fn offer(world: &mut World) {
     let folder = world.resource::<Autosave>().folder.clone();
-    sweep(&folder);
+    remove_stale_locks(&folder);
     let mut left = left_behind(&folder).into_iter();
     for path in left.by_ref().take(MAX_LEFT) {
         match read(&path) {

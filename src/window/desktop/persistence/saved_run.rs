@@ -39,12 +39,7 @@ pub enum SavedRunError {
     Foreign,
     /// A text in the file that can't be read.
     #[error("{item} in its file: {reason}")]
-    Text {
-        /// Which.
-        item: String,
-        /// The reason.
-        reason: String,
-    },
+    Text { item: String, reason: String },
     /// A world made in code that world files can't describe.
     #[error("the world {0} is not one that a world file can describe")]
     World(String),

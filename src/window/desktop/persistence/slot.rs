@@ -79,7 +79,7 @@ impl Slot {
 const STALE: Duration = Duration::from_secs(3600);
 
 /// Takes away the locks of processes that ended without a word and without a run.
-pub fn sweep(folder: &Path) {
+pub fn remove_stale_locks(folder: &Path) {
     let Ok(entries) = fs::read_dir(folder) else { return };
     for path in entries.filter_map(|entry| Some(entry.ok()?.path())) {
         let made = fs::metadata(&path).and_then(|about| about.modified());
@@ -175,7 +175,7 @@ mod tests {
         }
         let held = aged("4-0.lock", 7200);
         held.lock().unwrap();
-        sweep(folder.path());
+        remove_stale_locks(folder.path());
         let left = ["1-0.lock", "2-0.lock", "3-0.lock", "3-0.run", "4-0.lock"].map(|name| at(name).exists());
         assert_eq!(left, [false, true, true, true, true]);
         drop(held);

@@ -10,7 +10,6 @@ use motion_lab_sim::anatomy::Anatomy;
 pub struct Guesses {
     /// The number of the prompt that is shown, from 0.
     pub(super) number: usize,
-    /// The guess as typed.
     pub(super) typed: String,
     /// What came of the last guess, in words.
     pub(super) said: Option<String>,

@@ -31,7 +31,6 @@ const LONG: usize = 12;
 /// Largest height of the list of everything, points.
 const LIST: f32 = 240.0;
 
-/// Shows the panel.
 pub(super) fn edit_panel(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasState) {
     ui.horizontal(|ui| {
         let [back, again] = atlas.can_undo();

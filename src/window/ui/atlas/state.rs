@@ -17,12 +17,10 @@ pub const FIRST_CELL: f64 = 0.25;
 /// The effect of a click.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// Puts a robot there.
     #[default]
     Put,
     /// Nothing: pointing shows distances.
     Measure,
-    /// Selects and moves things.
     Edit,
 }
 

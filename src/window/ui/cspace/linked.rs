@@ -51,8 +51,8 @@ pub struct Linked<'a> {
 }
 
 impl<'a> Linked<'a> {
-    /// A robot with its past, with its twin and whether the way there is shown, and whether it is red; `None` if it is
-    /// not one of the lab's, which have spaces to be shown.
+    /// The linked view of a robot: its trail, its twin, its contact colour. `None` for a kind without a configuration
+    /// space.
     pub fn new(
         cockpit: &'a Cockpit,
         robot: &'a CockpitRobot,

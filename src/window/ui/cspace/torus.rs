@@ -34,7 +34,6 @@ const PIECES: u32 = 96;
 struct Seen {
     /// To the right and up, in radii of the circle in the tube's middle.
     at: [f64; 2],
-    /// Towards the eye.
     near: f64,
     /// Cosine of the angle between the surface's normal and the way to the eye; negative on the far side.
     facing: f64,

@@ -32,7 +32,6 @@ struct Channel {
 /// The value of a line.
 #[derive(Clone, Copy)]
 enum PlotValue {
-    /// As a channel says.
     Of(fn(&Trail) -> Option<f64>),
     /// A coordinate of the configuration.
     Coordinate(usize),
@@ -47,7 +46,6 @@ impl PlotValue {
     }
 }
 
-/// A plot.
 struct Graph {
     title: &'static str,
     /// Whether its values are angles in (-pi, pi].

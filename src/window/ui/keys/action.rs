@@ -7,13 +7,9 @@ use motion_lab_sim::manifest::Widget;
 pub enum Action {
     /// Of the run or the planner in front.
     Time(TimeAction),
-    /// Of every widget.
     Session(SessionAction),
-    /// Of the dashboard.
     Hand(HandAction),
-    /// Of the dashboard's panes.
     Camera(CameraAction),
-    /// Of the atlas.
     Atlas(AtlasAction),
     /// Read where it applies, as long as the key is held.
     Held(HeldAction),
@@ -24,7 +20,6 @@ pub enum Action {
 /// An action that moves the run through time, or the planner through its iterations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeAction {
-    /// Play, or pause.
     PlayPause,
     /// One tick back.
     StepBack,
@@ -38,9 +33,7 @@ pub enum TimeAction {
     NextContact,
     /// Play again and again, or not.
     Loop,
-    /// The next slower speed.
     Slower,
-    /// The next faster speed.
     Faster,
     /// Forget what comes after the present tick.
     Continue,
@@ -53,19 +46,14 @@ pub enum TimeAction {
 /// An action on the session and on what is shown of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SessionAction {
-    /// Undo.
     Undo,
-    /// Do again.
     Redo,
-    /// Save the run.
     Save,
-    /// Open a run.
     Open,
     /// Capture the widget in front.
     Capture,
     /// Open or fold the plots.
     Plots,
-    /// Names on or off.
     Labels,
     /// The scan on or off.
     Scan,
@@ -73,9 +61,7 @@ pub enum SessionAction {
     Fill,
     /// The hints, or none.
     Hints,
-    /// The next theme.
     Theme,
-    /// The list of keys.
     Help,
 }
 
@@ -84,7 +70,6 @@ pub enum SessionAction {
 pub enum HandAction {
     /// Take the robot of this pane in hand.
     Arm(usize),
-    /// Let go of it.
     LetGo,
 }
 
@@ -95,10 +80,7 @@ pub enum HeldAction {
     /// Drive the robot in hand while the key is held.
     Drive(Push),
     /// Turn the joint of the handle with the focus: counter-clockwise, or clockwise.
-    Turn {
-        /// Whether counter-clockwise.
-        left: bool,
-    },
+    Turn { left: bool },
     /// Leave the handle with the focus.
     LeaveHandle,
 }
@@ -108,7 +90,6 @@ pub enum HeldAction {
 pub enum CameraAction {
     /// Magnify the world in front.
     Magnify,
-    /// Show more of it.
     ShowMore,
     /// Show the whole of it.
     Fit,
@@ -120,10 +101,7 @@ pub enum AtlasAction {
     /// Move the atlas's robot, its measured point or what is selected in it.
     Move(Direction),
     /// Turn the atlas's robot, or what is selected in it.
-    TurnThing {
-        /// Whether counter-clockwise.
-        left: bool,
-    },
+    TurnThing { left: bool },
     /// Remove what is selected in the atlas.
     Delete,
     /// Drop what is being added or dragged in the atlas, or select nothing.
@@ -169,26 +147,18 @@ impl From<AtlasAction> for Action {
 /// A direction in which a robot in hand is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Push {
-    /// Forward.
     Forward,
-    /// Backward.
     Backward,
-    /// Turning or steering left.
     Left,
-    /// Turning or steering right.
     Right,
 }
 
 /// A way on the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// Towards lesser x.
     Left,
-    /// Towards greater x.
     Right,
-    /// Towards greater y.
     Up,
-    /// Towards lesser y.
     Down,
 }
 

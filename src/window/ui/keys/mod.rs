@@ -13,11 +13,9 @@ pub use action::{
 /// The states in which a key is active.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Always.
     Always,
     /// While no robot is in hand.
     Unarmed,
-    /// While one is.
     Armed,
     /// While a handle of an arm has the focus, which then takes the key for itself.
     Handle,

@@ -9,7 +9,6 @@ use motion_lab_sim::manifest::Widget;
 pub enum Icon {
     /// A triangle that points ahead.
     Play,
-    /// Two bars.
     Pause,
     /// A triangle that points back to a bar.
     ToStart,
@@ -23,11 +22,8 @@ pub enum Icon {
     Loop,
     /// A way back to its beginning.
     Reset,
-    /// A die.
     Die,
-    /// An arrow back.
     Undo,
-    /// An arrow ahead.
     Redo,
     /// A round robot with a nose.
     Rover,

@@ -43,7 +43,6 @@ const SHOWS_REJECTED: f64 = 3.0;
 pub enum PlanStage {
     /// It has not begun, or has no path yet.
     Growing,
-    /// It has a path.
     Solved,
     /// There is no path, for this reason.
     Ended(NoPath),

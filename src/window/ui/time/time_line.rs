@@ -60,7 +60,6 @@ impl Scale {
     }
 }
 
-/// A row of marks.
 struct Lane<'a> {
     /// The robot whose marks it has, if not those of all.
     robot: Option<u32>,
@@ -86,50 +85,57 @@ fn lanes(model: &Dashboard) -> Vec<Lane<'_>> {
     robots().map(|robot| Lane { robot: Some(robot.id), name: &robot.name }).collect()
 }
 
-/// Shows the line over the whole width. Clicking and dragging seek; so do the arrow keys while it has the focus.
-pub fn time_line(
-    ui: &mut Ui,
-    model: &Dashboard,
-    history: &History,
-    look: &FrameColours,
-    shown: &mut Option<TickSpan>,
-    wheel: bool,
-    commands: &mut Vec<Command>,
-) {
-    let end = model.frontier.max(model.tick);
-    *shown = shown.and_then(|span| span.with(model.tick, end));
-    let span = shown.unwrap_or(TickSpan { from: 0, to: end });
-    // a low screen has one lane for all
-    let is_short = look.narrow && ui.ctx().content_rect().height() < SHORT;
-    let lanes = if is_short { vec![Lane { robot: None, name: "" }] } else { lanes(model) };
-    let height = if lanes.len() == 1 { ONLY } else { LANE } * lanes.len() as f32;
-    let names = match lanes.len() {
-        0 | 1 => 0.0,
-        _ if look.narrow => NARROW_NAMES,
-        _ => NAMES,
-    };
-    let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
-    let mut tick = model.tick;
-    let response = ui
-        .horizontal(|ui| {
-            ui.add_space(names);
-            ui.spacing_mut().slider_width = ui.available_width();
-            let line = Slider::new(&mut tick, span.from..=span.to.max(span.from + 1))
-                .show_value(false)
-                .trailing_fill(true)
-                .step_by(1.0);
-            ui.add_enabled(end > 0, line)
-        })
-        .inner;
-    response.widget_info(|| WidgetInfo::slider(end > 0, model.tick as f64, "time line, in ticks"));
-    // the slider's handle keeps off the ends by its radius
-    let across = response.rect.x_range().shrink(response.rect.height() / 2.5);
-    let scale = Scale { lanes: Rect::from_x_y_ranges(across, strip.y_range()), span };
-    zoom(ui, &scale, end, wheel, shown);
-    show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
-    axis(ui, &scale, look);
-    if response.changed() && tick != model.tick && is_meant(ui) {
-        commands.push(Command::from(TransportCommand::Seek(tick.min(end))));
+/// The time line of a run.
+pub struct TimeLine<'a> {
+    /// The run.
+    pub model: &'a Dashboard,
+    /// Its marks.
+    pub history: &'a History,
+    pub look: &'a FrameColours,
+    /// Whether the wheel zooms.
+    pub wheel: bool,
+}
+
+impl TimeLine<'_> {
+    /// Shows the line over the whole width, of the ticks `shown`, or of all. Clicking and dragging seek; so do the
+    /// arrow keys while it has the focus.
+    pub fn show(&self, ui: &mut Ui, shown: &mut Option<TickSpan>, commands: &mut Vec<Command>) {
+        let TimeLine { model, history, look, wheel } = *self;
+        let end = model.frontier.max(model.tick);
+        *shown = shown.and_then(|span| span.with(model.tick, end));
+        let span = shown.unwrap_or(TickSpan { from: 0, to: end });
+        // a low screen has one lane for all
+        let is_short = look.narrow && ui.ctx().content_rect().height() < SHORT;
+        let lanes = if is_short { vec![Lane { robot: None, name: "" }] } else { lanes(model) };
+        let height = if lanes.len() == 1 { ONLY } else { LANE } * lanes.len() as f32;
+        let names = match lanes.len() {
+            0 | 1 => 0.0,
+            _ if look.narrow => NARROW_NAMES,
+            _ => NAMES,
+        };
+        let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::hover());
+        let mut tick = model.tick;
+        let response = ui
+            .horizontal(|ui| {
+                ui.add_space(names);
+                ui.spacing_mut().slider_width = ui.available_width();
+                let line = Slider::new(&mut tick, span.from..=span.to.max(span.from + 1))
+                    .show_value(false)
+                    .trailing_fill(true)
+                    .step_by(1.0);
+                ui.add_enabled(end > 0, line)
+            })
+            .inner;
+        response.widget_info(|| WidgetInfo::slider(end > 0, model.tick as f64, "time line, in ticks"));
+        // the slider's handle keeps off the ends by its radius
+        let across = response.rect.x_range().shrink(response.rect.height() / 2.5);
+        let scale = Scale { lanes: Rect::from_x_y_ranges(across, strip.y_range()), span };
+        zoom(ui, &scale, end, wheel, shown);
+        show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
+        axis(ui, &scale, look);
+        if response.changed() && tick != model.tick && is_meant(ui) {
+            commands.push(Command::from(TransportCommand::Seek(tick.min(end))));
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use bevy_egui::egui::{
     Align, Align2, ComboBox, Key, Layout, RichText, TextEdit, TextStyle, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use super::time_line::time_line;
+use super::time_line::TimeLine;
 use crate::window::ui::keys::{TimeAction, hint};
 use crate::window::ui::paint::button::{LabButton, SIGN, sign_width};
 use crate::window::ui::paint::fold::form;
@@ -81,7 +81,7 @@ pub fn transport_bar(
 ) {
     let narrow = look.narrow;
     let top = ui.available_rect_before_wrap().top();
-    time_line(ui, model, history, look, &mut state.span, !state.embedded, commands);
+    TimeLine { model, history, look, wheel: !state.embedded }.show(ui, &mut state.span, commands);
     ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };
     if look.low {
         // a low window has no room for two rows

@@ -174,7 +174,6 @@ impl Cells {
         &self.things[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 
-    /// The segment of this number.
     #[inline(always)]
     pub(crate) fn segment(&self, number: u32) -> &Segment {
         &self.segments[number as usize]

@@ -15,7 +15,6 @@ pub(crate) struct SegmentArrays {
     count: usize,
 }
 
-/// A disc's boundary.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Circle {
     pub(crate) centre: Point2,
@@ -37,7 +36,6 @@ impl SegmentArrays {
         Segment::new(Point2::new(self.ax[i], self.ay[i]), Point2::new(self.bx[i], self.by[i]))
     }
 
-    /// The number of segments.
     pub(crate) fn len(&self) -> usize {
         self.count
     }
@@ -47,7 +45,6 @@ impl SegmentArrays {
         [&self.ax, &self.ay, &self.bx, &self.by]
     }
 
-    /// Adds one segment.
     #[inline]
     pub(crate) fn push(&mut self, s: Segment) {
         let i = self.count;
@@ -79,12 +76,10 @@ impl SegmentSoup {
         soup
     }
 
-    /// The segments.
     pub(crate) fn segments(&self) -> &SegmentArrays {
         &self.segments
     }
 
-    /// The discs.
     pub(crate) fn circles(&self) -> &[Circle] {
         &self.circles
     }
@@ -123,7 +118,6 @@ impl SegmentSoup {
         }
     }
 
-    /// Adds one segment.
     #[cfg(test)]
     pub(crate) fn push_segment(&mut self, segment: Segment) {
         self.segments.push(segment);

@@ -34,7 +34,6 @@ struct Block {
 }
 
 impl Block {
-    /// The number of cells.
     fn count(&self) -> usize {
         usize::from(self.right - self.left + 1) * usize::from(self.high - self.low + 1)
     }

@@ -95,7 +95,6 @@ pub(crate) fn march_on<M: Motion>(
     go(&mut plain, motion, Course { start: start.footprint, gap, end: &end }, options.budget)
 }
 
-/// The queries of a march.
 pub(crate) trait MarchQueries {
     /// Whether one step proves the motion free between two places; records the step if so.
     fn proves(&mut self, from: At, to: At) -> bool;

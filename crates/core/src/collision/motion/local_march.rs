@@ -12,7 +12,6 @@ use crate::geometry::{Aabb, Footprint, largest_coordinate};
 use crate::num::{greater, lesser};
 use crate::robots::Motion;
 
-/// A march under way.
 struct Nearby<'a, M> {
     scene: &'a Scene,
     motion: &'a M,

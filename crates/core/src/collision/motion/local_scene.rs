@@ -20,7 +20,6 @@ pub(crate) struct Vicinity<'a> {
 }
 
 impl<'a> Vicinity<'a> {
-    /// The whole scene.
     pub(crate) fn all(scene: &'a Scene) -> Self {
         Vicinity { scene, range: 0.0, pieces: None }
     }

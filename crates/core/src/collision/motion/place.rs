@@ -7,7 +7,6 @@ use crate::geometry::Footprint;
 pub(crate) struct At<'a> {
     /// The parameter, in `[0, 1]`.
     pub(crate) s: f64,
-    /// The footprint there.
     pub(crate) footprint: &'a Footprint,
 }
 
@@ -28,9 +27,7 @@ pub(crate) struct Ends<'a> {
     pub(crate) end: &'a Footprint,
 }
 
-/// The start of a motion.
 pub(crate) struct MotionStart {
-    /// The footprint there.
     pub(crate) footprint: Footprint,
     /// Its distance from the nearest obstacle, metres; 0 in contact.
     pub(crate) distance: f64,
@@ -49,7 +46,6 @@ pub(crate) struct Course<'a> {
 /// A free place of a motion, with a contact known farther on.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactAhead<'a> {
-    /// The free place.
     pub(crate) from: At<'a>,
     /// The clearance there, less the margin, metres.
     pub(crate) gap: f64,

@@ -18,7 +18,6 @@ pub(crate) struct Parting {
 /// A separating line that rounding leaves no doubt about.
 #[derive(Clone, Copy)]
 pub(crate) struct SureParting {
-    /// The line.
     pub(crate) line: Parting,
     /// What a height above the line may be off by, metres.
     pub(crate) slack: f64,

@@ -50,9 +50,7 @@ pub fn reeds_shepp(from: &Pose2, to: &Pose2, radius: f64) -> Option<Curve> {
 /// A way to look at the same problem in which its curves have other words.
 #[derive(Clone, Copy)]
 struct WordSymmetry {
-    /// Ahead and back exchanged.
     other_gear: bool,
-    /// Left and right exchanged.
     mirrored: bool,
     /// Driven from the end.
     from_end: bool,

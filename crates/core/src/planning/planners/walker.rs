@@ -71,12 +71,10 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         Point2::new(c[0], c[1])
     }
 
-    /// Where its centre is.
     pub(super) fn here(&self) -> Point2 {
         self.place(self.node())
     }
 
-    /// Where the goal is.
     pub(super) fn goal(&self) -> Point2 {
         let c = self.search.problem.goal().coordinates();
         Point2::new(c[0], c[1])

@@ -9,7 +9,6 @@ use crate::worlds::BeamModel;
 /// A point as written: `(x, y)`, metres.
 pub type Xy = (f64, f64);
 
-/// The whole file.
 #[derive(Deserialize)]
 #[serde(rename = "World", deny_unknown_fields)]
 pub(crate) struct WorldText {

@@ -11,7 +11,6 @@ use crate::worlds::{Resident, Route, WorldProblem};
 /// The radii of the routes' corners, metres, by the routes' names.
 pub(super) type Radii<'a> = BTreeMap<&'a str, f64>;
 
-/// Checks a route.
 pub(super) fn make_route(text: &RouteText, budget: &mut Budget) -> Result<Route, WorldProblem> {
     budget.spend_corners_of_routes(text.points.len())?;
     let points = text.points.iter().map(|&xy| make_point(xy)).collect::<Result<_, _>>()?;

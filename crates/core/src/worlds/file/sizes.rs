@@ -29,7 +29,6 @@ pub(crate) struct DiscText {
     wheel_radius: Option<f64>,
 }
 
-/// An arm as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct ArmText {
@@ -41,7 +40,6 @@ pub(crate) struct ArmText {
     radius: Option<f64>,
 }
 
-/// A car as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CarText {
@@ -59,7 +57,6 @@ pub(crate) struct CarText {
     trailer: Option<TrailerText>,
 }
 
-/// A trailer as written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TrailerText {

@@ -39,7 +39,6 @@ struct RoutePiece {
     from: f64,
     /// Where it starts, and which way it goes there.
     start: Pose2,
-    /// Its length, metres.
     length: f64,
     /// Its curvature, per metre, positive to the left; 0 of a straight piece.
     curvature: f64,

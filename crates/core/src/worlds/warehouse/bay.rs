@@ -1,7 +1,7 @@
 //! A bay of a warehouse: aisles with racks and rovers, cells with arms, and a road with cars. All lengths are metres.
 
 use super::hall::solid_box;
-use super::plan::{AISLES, INNER_HEIGHT, INNER_WIDTH, Plan, ROW_ARMS, TO_ROAD, point, share, tidy};
+use super::layout::{AISLES, INNER_HEIGHT, INNER_WIDTH, Layout, ROW_ARMS, TO_ROAD, point, share, tidy};
 use super::settings::Warehouse;
 use super::trailer::trailer_heading;
 use crate::configuration::{ArmSizes, CarSizes, RobotKind, Sizes, TrailerSizes};
@@ -44,7 +44,7 @@ const CAR: CarSizes = CarSizes {
 };
 
 /// Adds bay number `bay` to the hall, and its robots after those who are there.
-pub(super) fn furnish(world: &mut World, warehouse: &Warehouse, plan: &Plan, bay: usize) {
+pub(super) fn furnish(world: &mut World, warehouse: &Warehouse, plan: &Layout, bay: usize) {
     let mut draws = Stream::new(warehouse.seed, &format!("warehouse/bay {bay}"));
     let (corner, crew) = (plan.corner(bay), plan.crew(bay));
     for aisle in 0..AISLES {

@@ -2,7 +2,7 @@
 
 use super::super::World;
 use super::hall::hall;
-use super::plan::Plan;
+use super::layout::Layout;
 use super::settings::{WAREHOUSE_ROBOTS, Warehouse, WarehouseError};
 
 impl Warehouse {
@@ -17,7 +17,7 @@ impl Warehouse {
         if !(WAREHOUSE_ROBOTS[0]..=WAREHOUSE_ROBOTS[1]).contains(&self.robots) {
             return Err(WarehouseError::Robots(self.robots));
         }
-        let plan = Plan::of(self.robots);
+        let plan = Layout::of(self.robots);
         let mut world = hall(self, &plan);
         for bay in 0..plan.bays {
             super::bay::furnish(&mut world, self, &plan, bay);

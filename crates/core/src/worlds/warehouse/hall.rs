@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::plan::{INNER_HEIGHT, INNER_WIDTH, PITCH, Plan, point};
+use super::layout::{INNER_HEIGHT, INNER_WIDTH, Layout, PITCH, point};
 use super::settings::Warehouse;
 use crate::geometry::{Aabb, Point2, Pose2, Shape};
 use crate::worlds::{Obstacle, ObstacleKind, Place, World};
@@ -12,13 +12,12 @@ const DOCK: [f64; 2] = [3.2, 1.4];
 /// Radius of a pillar, metres.
 const PILLAR: f64 = 0.3;
 
-/// A solid box.
 pub(super) fn solid_box(name: String, min: Point2, max: Point2) -> Obstacle {
     Obstacle::new(name, ObstacleKind::Solid, vec![(Pose2::IDENTITY, Shape::Rectangle { min, max })])
 }
 
 /// The hall without its bays.
-pub(super) fn hall(warehouse: &Warehouse, plan: &Plan) -> World {
+pub(super) fn hall(warehouse: &Warehouse, plan: &Layout) -> World {
     let bounds = plan.hall();
     let with = if warehouse.trailers { " with trailers" } else { "" };
     let name = format!("Warehouse of {}{with}, seed {}", warehouse.robots, warehouse.seed);

@@ -7,7 +7,7 @@
 mod bay;
 mod generator;
 mod hall;
-mod plan;
+mod layout;
 mod settings;
 #[cfg(test)]
 mod tests;

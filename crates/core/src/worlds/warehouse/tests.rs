@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use super::plan::{Plan, share};
+use super::layout::{Layout, share};
 use super::trailer::trailer_heading;
 use super::*;
 use crate::configuration::RobotKind;
@@ -68,12 +68,12 @@ fn the_bytes_are_the_same_everywhere() {
 
 #[test]
 fn the_largest_has_room_within_the_limits_of_world_files() {
-    let plan = Plan::of(WAREHOUSE_ROBOTS[1]);
+    let plan = Layout::of(WAREHOUSE_ROBOTS[1]);
     assert_eq!((plan.bays, plan.columns * plan.rows), (1250, 1250));
     let hall = plan.hall();
     assert!(hall.max.x < 1000.0 && hall.max.y < 1000.0, "{hall:?}");
     for bays in 1..400 {
-        let plan = Plan::of(80 * bays);
+        let plan = Layout::of(80 * bays);
         assert!(plan.bays == bays && plan.columns * plan.rows >= bays);
         assert!(plan.columns * (plan.rows - 1) < bays, "no row is empty");
         let size = plan.hall().max;

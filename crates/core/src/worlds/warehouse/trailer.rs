@@ -5,7 +5,7 @@ use crate::worlds::RoutePath;
 
 /// How long before the car's place the trailer is put straight, in hitch lengths: an error falls by `e` in each.
 const BEFORE: f64 = 20.0;
-/// Steps of the integration, a hitch length.
+/// Integration steps per hitch length.
 const STEPS: f64 = 10.0;
 
 /// The heading of the trailer, its axle `hitch_len` metres behind the hitch, of a car whose hitch has followed the line

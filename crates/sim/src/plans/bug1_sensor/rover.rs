@@ -30,7 +30,6 @@ const SENSOR: RangeSensor = RangeSensor { n_rays: 60, max_range: 4.0 };
 pub(super) enum Eyes {
     /// The exact nearest point, by which leave points are judged.
     Truth,
-    /// An exact sensor.
     Exact,
     /// A sensor with noise from a stream.
     Noisy(Box<(BeamModel, Stream)>),

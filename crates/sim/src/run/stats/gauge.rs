@@ -28,7 +28,6 @@ pub(super) struct GaugeReading {
 /// A robot of the run.
 struct GaugedRobot {
     resident: Resident,
-    /// The number of its world.
     world: usize,
     about: Option<&'static RobotKind>,
     /// Where it was at the last frame.

@@ -21,7 +21,6 @@ enum ShapeSource {
     File(usize),
     /// The world's door of this number.
     Door(usize),
-    /// The script.
     Added(Obstacle),
 }
 
@@ -108,7 +107,6 @@ impl WorldObstacles {
         self.entries.push(RosterEntry { entity, source, at_first, now: at_first });
     }
 
-    /// The world's entity.
     pub(crate) fn entity(&self) -> Entity {
         self.entity
     }

@@ -7,7 +7,6 @@ use super::change::name_of;
 use super::roster::ObstacleRoster;
 use crate::simulation::{CommandError, CommandRefused, Door, ObstacleShape, Placement, Roster, Transport};
 
-/// Adds the observers.
 pub(crate) fn watch(app: &mut App) {
     app.add_observer(|on: On<Insert, (ObstacleShape, Placement, Door)>, mut world: DeferredWorld| {
         note(&mut world, on.entity);

@@ -36,7 +36,6 @@ pub struct Trail {
 
 /// What a robot's state does not say by itself.
 pub(crate) struct Gauges {
-    /// The present footprint.
     pub(crate) footprint: Footprint,
     /// Distance by its wheels' encoders, metres; `None` without encoders.
     pub(crate) odometer: Option<f64>,

@@ -28,7 +28,6 @@ fn positions(corners: &[AnyConfiguration]) -> Vec<Point2> {
     corners.iter().filter_map(position).collect()
 }
 
-/// An arm's angles.
 fn turns<const N: usize>(corners: &[AnyConfiguration]) -> Vec<Tn<N>> {
     corners.iter().filter_map(|q| Tn::from_coordinates(&q.coordinates())).collect()
 }

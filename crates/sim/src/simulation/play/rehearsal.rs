@@ -68,7 +68,6 @@ impl<R: SimulatedRobot> Rehearsal<R> {
         &self.robot
     }
 
-    /// Where it is.
     pub(super) fn q(&self) -> R::Configuration {
         self.driven.q
     }

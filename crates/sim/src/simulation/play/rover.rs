@@ -34,7 +34,6 @@ impl PlayablePath for LinePath<Rusty> {
     }
 }
 
-/// A straight piece of the path.
 #[derive(Clone, Copy)]
 struct StraightPiece {
     from: Point2,

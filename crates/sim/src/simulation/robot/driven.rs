@@ -30,7 +30,6 @@ type Accepted<R> = (DriveMode<R>, Option<<R as Robot>::Configuration>);
 pub(crate) struct InputTarget<R: SimulatedRobot> {
     pub(crate) q: R::Configuration,
     pub(crate) mode: DriveMode<R>,
-    /// Its own state.
     pub(crate) extra: Extra,
 }
 

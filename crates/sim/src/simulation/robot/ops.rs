@@ -9,7 +9,7 @@ use super::refusal::InputRefusal;
 use super::simulated::canonical;
 use crate::run::{RobotInput, RobotState};
 use crate::simulation::past::trail::Gauges;
-use crate::simulation::tick::sweep::{CoveredSet, CutMotion};
+use crate::simulation::tick::swept_set::{CoveredSet, CutMotion};
 use crate::simulation::{
     Configuration, Contacts, Cut, DrawnTour, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId,
     RobotModel, RobotName, RobotView, SimulatedRobot, SimulatedWorld, TickMotion, WorldScene,
@@ -25,7 +25,6 @@ pub struct RobotOps {
     /// Applies an input, or counts it as refused and says why. The last argument gives the parts of the other robots of
     /// its world.
     pub(crate) apply: fn(&mut World, Entity, &RobotInput, &dyn Fn(&World) -> Vec<Placed>) -> Option<InputRefusal>,
-    /// The robot's present footprint.
     pub(crate) footprint: fn(&World, Entity) -> Option<Footprint>,
     /// What a history keeps of the robot beside its state.
     pub(crate) gauges: fn(&World, Entity) -> Option<Gauges>,
@@ -36,7 +35,6 @@ pub struct RobotOps {
     pub(crate) with_sweep: fn(&World, Entity, &mut dyn FnMut(&dyn CoveredSet, f64)),
     /// Whether a run that has a sensor of its own gives the robot one.
     pub(crate) senses: fn(&World, Entity) -> bool,
-    /// The robot's state.
     pub(crate) encode: fn(&World, Entity) -> Option<RobotState>,
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
     /// robot.

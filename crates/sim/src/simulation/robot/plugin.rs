@@ -54,7 +54,6 @@ pub struct RobotKinds {
     known: Kinds,
     /// The plugins by kind, in the order of registration.
     plugins: Vec<(String, Adder)>,
-    /// The number of robot types.
     types: usize,
 }
 

@@ -53,7 +53,6 @@ pub struct Replicas<R: SimulatedRobot> {
     scanners: Scanners,
 }
 
-/// What the replicas share.
 struct SharedStage<R: SimulatedRobot> {
     robot: R,
     resident: Resident,
@@ -64,7 +63,6 @@ struct SharedStage<R: SimulatedRobot> {
     noise: Option<BeamModel>,
 }
 
-/// A run.
 struct Replica<R: SimulatedRobot> {
     tick: u64,
     tour: R::Tour,

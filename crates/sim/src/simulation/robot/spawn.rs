@@ -40,7 +40,6 @@ fn sized<R: SimulatedRobot>(model: &R, resident: &Resident) -> Result<R, SizesEr
 pub(crate) struct SpawnableRobot<R: SimulatedRobot> {
     /// The robot, with the resident's own sizes.
     pub(crate) robot: R,
-    /// Where it starts.
     pub(crate) q: R::Configuration,
     /// The noise of the sensor that the run gives it.
     pub(crate) noise: Option<BeamModel>,

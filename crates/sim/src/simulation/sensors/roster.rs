@@ -28,13 +28,11 @@ pub struct SensorRoster {
     pub(super) fixed: bool,
 }
 
-/// A sensor of the run.
 #[derive(Debug)]
 pub(crate) struct RunSensor {
     /// The sensor's entity. It may be gone; the sensor stays.
     pub(crate) entity: Entity,
     pub(crate) robot: Entity,
-    /// The robot's id.
     pub(crate) id: u32,
     pub(crate) name: String,
     pub(crate) rays: FanSensor,

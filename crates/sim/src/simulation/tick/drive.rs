@@ -1,5 +1,6 @@
 //! The systems that give each robot its control and its motion.
 
+use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
 use super::parallel::each;
@@ -50,16 +51,18 @@ impl<R: SimulatedRobot> Driver<'_, R> {
 }
 
 /// The components of a robot that [`drive`] reads and writes.
-type Driven<R> = (
-    &'static RobotModel<R>,
-    &'static DrawnTour<R>,
-    &'static Slip,
-    &'static DriveMode<R>,
-    &'static Configuration<R>,
-    &'static mut PreviousConfiguration<R>,
-    &'static mut OwnState<R>,
-    &'static mut Control<R>,
-);
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(crate) struct Driven<R: SimulatedRobot> {
+    model: &'static RobotModel<R>,
+    tour: &'static DrawnTour<R>,
+    slip: &'static Slip,
+    mode: &'static DriveMode<R>,
+    configuration: &'static Configuration<R>,
+    previous: &'static mut PreviousConfiguration<R>,
+    own: &'static mut OwnState<R>,
+    control: &'static mut Control<R>,
+}
 
 /// Gives every robot of a kind its control.
 pub(crate) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Query<Driven<R>>) {
@@ -67,10 +70,12 @@ pub(crate) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Qu
     each(
         robots.iter_mut(),
         || (),
-        |(), (robot, tour, slip, mode, q, mut previous, mut own, mut control)| {
-            previous.0 = q.0;
-            let driver = Driver { robot: &robot.0, tour: &tour.0, slip: &slip.0, mode };
-            control.0 = driver.control(tick, &q.0, &mut own.extra);
+        |(), mut driven| {
+            let q = driven.configuration.0;
+            driven.previous.0 = q;
+            let DrivenItem { model, tour, slip, mode, .. } = &driven;
+            let driver = Driver { robot: &model.0, tour: &tour.0, slip: &slip.0, mode };
+            driven.control.0 = driver.control(tick, &q, &mut driven.own.extra);
         },
     );
 }

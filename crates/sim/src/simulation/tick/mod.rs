@@ -8,7 +8,7 @@ pub(crate) mod parallel;
 pub(crate) mod refusals;
 pub(crate) mod sense;
 pub(crate) mod settle;
-pub(crate) mod sweep;
+pub(crate) mod swept_set;
 pub(crate) mod world_crowds;
 
 #[cfg(test)]

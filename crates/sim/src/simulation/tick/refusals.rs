@@ -59,7 +59,6 @@ impl Refusals {
         is_new
     }
 
-    /// Counts a refused input.
     pub(crate) fn note(&mut self, event: impl FnOnce() -> RefusedEvent) {
         self.count += 1;
         self.first.get_or_insert_with(event);

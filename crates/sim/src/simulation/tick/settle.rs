@@ -1,5 +1,6 @@
 //! The systems that cut each motion, settle which robots advance, and count contacts.
 
+use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
 use super::crowd::NeighbourMemory;
@@ -65,33 +66,37 @@ pub(crate) fn cut_among<R: SimulatedRobot>(scene: &Scene, others: &[Placed], mot
 }
 
 /// The components of a robot that [`settle`] reads and writes.
-type Settled<R> = (
-    &'static RobotId,
-    &'static RobotModel<R>,
-    &'static TickMotion<R>,
-    &'static Cut<R>,
-    &'static mut Configuration<R>,
-    &'static mut Contacts<R>,
-    &'static mut DriveMode<R>,
-);
+#[derive(QueryData)]
+#[query_data(mutable)]
+pub(crate) struct Settled<R: SimulatedRobot> {
+    id: &'static RobotId,
+    model: &'static RobotModel<R>,
+    motion: &'static TickMotion<R>,
+    cut: &'static Cut<R>,
+    configuration: &'static mut Configuration<R>,
+    contacts: &'static mut Contacts<R>,
+    mode: &'static mut DriveMode<R>,
+}
 
 /// Advances every robot of a kind along its cut motion, and counts contacts. A motion that meets the cut motion of a
 /// robot with a lower id in its world is in contact; a robot that contact holds then stays where it started.
 pub(crate) fn settle<R: SimulatedRobot>(mut crowds: ResMut<WorldCrowds>, mut robots: Query<Settled<R>>) {
-    for (&id, RobotModel(robot), TickMotion(motion), cut, mut q, mut contacts, mut mode) in &mut robots {
+    for SettledItem { id: &id, model, motion, cut, mut configuration, mut contacts, mut mode } in &mut robots {
+        let (robot, motion) = (&model.0, motion.0.as_ref());
         let met = motion.is_some() && crowds.has_met(id);
         if let Some(motion) = motion {
             let until = if met && R::HELD { 0.0 } else { cut.until };
             if let Some(end) = end_of(robot, motion, until) {
-                q.0 = end;
+                configuration.0 = end;
             }
         }
         *contacts = contacts.after(cut.contact || met);
-        if mode.target.is_some_and(|target| is_there(&target, &q.0)) {
+        let q = configuration.0;
+        if mode.target.is_some_and(|target| is_there(&target, &q)) {
             mode.target = None;
         }
         if let Some(crowd) = crowds.of_mut(id) {
-            crowd.settle(id.0, &robot.fitted(&q.0).footprint(&q.0));
+            crowd.settle(id.0, &robot.fitted(&q).footprint(&q));
         }
     }
 }

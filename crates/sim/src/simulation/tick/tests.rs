@@ -4,7 +4,7 @@ use bevy::prelude::*;
 
 use super::hold::margin_from;
 use super::settle::cut_among;
-use super::sweep::sweeps_meet;
+use super::swept_set::sweeps_meet;
 use super::world_crowds::{WorldCrowds, with_sweep};
 use crate::run::{Event, RobotInput, Script};
 use crate::simulation::{

@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use super::crowd::{Crowd, NeighbourMemory};
 use super::hold::margin_from;
 use super::parallel::each;
-use super::sweep::{CoveredSet, sweeps_meet};
+use super::swept_set::{CoveredSet, sweeps_meet};
 use crate::simulation::{Residents, RobotId, RobotOps, Roster};
 use motion_lab_core::geometry::Placed;
 

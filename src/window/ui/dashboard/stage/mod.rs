@@ -352,7 +352,6 @@ fn tabs(ui: &mut Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<
 /// Where a small cockpit is.
 #[derive(Clone, Copy)]
 struct SmallCockpit {
-    /// The cockpit's index.
     index: usize,
     /// The rectangle that takes clicks.
     whole: Rect,

@@ -5,7 +5,6 @@ use crate::geometry::{Aabb, Point2};
 /// Robots of a full bay: 64 rovers, 8 arms, 8 cars.
 const BAY_ROBOTS: usize = 80;
 
-/// Aisles of a bay.
 pub(super) const AISLES: usize = 4;
 /// Arms in each of a bay's two rows of cells.
 pub(super) const ROW_ARMS: usize = 4;
@@ -29,7 +28,7 @@ pub(super) const PITCH: [f64; 2] =
 
 /// How many bays there are and how they stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Plan {
+pub(super) struct Layout {
     pub(super) bays: usize,
     pub(super) columns: usize,
     pub(super) rows: usize,
@@ -61,13 +60,13 @@ pub(super) fn share(total: usize, parts: usize, i: usize) -> usize {
     total * (i + 1) / parts - total * i / parts
 }
 
-impl Plan {
+impl Layout {
     pub(super) fn of(robots: usize) -> Self {
         let bays = robots.div_ceil(BAY_ROBOTS);
         let tenth = (robots + 5) / 10;
         let columns = columns(bays);
         let rows = bays.div_ceil(columns);
-        Plan { bays, columns, rows, rovers: robots - 2 * tenth, arms: tenth, cars: tenth }
+        Layout { bays, columns, rows, rovers: robots - 2 * tenth, arms: tenth, cars: tenth }
     }
 
     pub(super) fn crew(&self, bay: usize) -> Crew {
