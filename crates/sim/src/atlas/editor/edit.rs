@@ -1,9 +1,11 @@
 //! `Editor`, a world under edit: every change is checked as world files are, and can be undone.
 
 use super::numbers::{listed, sides};
-use super::op::{all_names, changed, numbers_of, shape_of};
+use super::op::{all_names, changed};
 use super::residents::{Stand, stand};
-use super::{Atlas, EditError, EditShape, Handle, Number, Op, TeleportRefusal};
+use super::thing::{numbers_of, shape_of};
+use super::{EditError, EditShape, Handle, Number, Op};
+use crate::atlas::{Atlas, TeleportRefusal};
 use motion_lab_core::configuration::Kinds;
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Vector2};
 use motion_lab_core::num::{hypot, lesser, sin_cos};
