@@ -1,6 +1,6 @@
 //! The cost of each operation: the four queries, an edge, a scan, a tick, the minute's tour.
 //!
-//! `cargo bench --no-default-features --features headless`
+//! `cargo bench --no-default-features --features headless --bench lab`
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use std::f64::consts::PI;

@@ -47,13 +47,13 @@ impl Serialize for WrittenNumber {
 
 impl<'de> Deserialize<'de> for WrittenNumber {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(AnyNumber)
+        deserializer.deserialize_any(WrittenNumberVisitor)
     }
 }
 
-struct AnyNumber;
+struct WrittenNumberVisitor;
 
-impl Visitor<'_> for AnyNumber {
+impl Visitor<'_> for WrittenNumberVisitor {
     type Value = WrittenNumber;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -29,7 +29,7 @@ use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextP
 use background::Background;
 pub use lab_systems::LabSystems;
 use motion_lab_sim::simulation::History;
-use session::{SessionPlugin, Shown, carry_out};
+use session::{SessionPlugin, ShownDashboard, carry_out};
 use ui::paint::style::ScreenTheme;
 use ui::{Interface, SessionCommand};
 
@@ -41,7 +41,7 @@ pub(crate) mod for_page {
     pub(crate) use super::error::SessionError;
     pub(crate) use super::pace::limit;
     pub(crate) use super::run_files::{open_log, open_path_text, open_world_text, path_text, save, shown_run};
-    pub(crate) use super::session::{Shown, new_run};
+    pub(crate) use super::session::{ShownDashboard, new_run};
     pub(crate) use super::ui::Interface;
     pub(crate) use super::windowed_app;
 }
@@ -102,7 +102,7 @@ fn add_camera(mut commands: Commands) {
 
 /// Draws frame after frame while the run plays or work goes on.
 /// Else the window sleeps until something happens, a second at most.
-fn wake(shown: Res<Shown>, background: Res<Background>, mut settings: ResMut<WinitSettings>) {
+fn wake(shown: Res<ShownDashboard>, background: Res<Background>, mut settings: ResMut<WinitSettings>) {
     let idle = std::time::Duration::from_secs(1);
     let mode =
         if shown.0.playing || background.is_under_way() { UpdateMode::Continuous } else { UpdateMode::reactive(idle) };
@@ -121,7 +121,7 @@ fn show(world: &mut World) -> Result {
     let mut root = egui::Ui::new(ctx.clone(), "lab".into(), builder);
     let mut commands = Vec::new();
     world.resource_scope(|world, mut interface: Mut<Interface>| {
-        let (shown, history) = (world.resource::<Shown>(), world.resource::<History>());
+        let (shown, history) = (world.resource::<ShownDashboard>(), world.resource::<History>());
         ui::lab(&mut root, &shown.0, history, &mut interface.0, &mut commands);
         let paper = interface.0.theme().clear_colour();
         world.resource_mut::<ClearColor>().0 = paper;

@@ -45,7 +45,7 @@ impl Plugin for SessionPlugin {
             .init_resource::<CrowdViews>()
             .init_resource::<Background>()
             .init_resource::<Pace>()
-            .insert_resource(Shown(Dashboard {
+            .insert_resource(ShownDashboard(Dashboard {
                 cockpits: Vec::new(),
                 seed: BOOK_SEED,
                 tick: 0,
@@ -108,7 +108,7 @@ fn draw_worlds(world: &mut World) {
 
 /// The values of the dashboard in this frame.
 #[derive(Resource)]
-pub struct Shown(pub Dashboard);
+pub struct ShownDashboard(pub Dashboard);
 
 fn start(world: &mut World) -> Result {
     let kinds = world.resource::<RobotKinds>().known();
@@ -144,7 +144,7 @@ pub fn gather(world: &mut World) {
     let smooth = playing && speed.is_finite();
     let between = if smooth { world.resource::<Time<Fixed>>().overstep_fraction_f64() } else { 1.0 };
     // the last frame's view lets go of its lists of robots, which the next ones are written into
-    world.resource_mut::<Shown>().0.cockpits.clear();
+    world.resource_mut::<ShownDashboard>().0.cockpits.clear();
     update_crowds(world);
     let mut first = 0;
     let mut cockpits = Vec::new();
@@ -177,7 +177,7 @@ pub fn gather(world: &mut World) {
         can_undo: undoes(world),
         can_redo: undo.can_redo(),
     };
-    world.insert_resource(Shown(dashboard));
+    world.insert_resource(ShownDashboard(dashboard));
 }
 
 fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {

@@ -25,7 +25,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::desktop::files::{open_run, save_run};
-use super::session::{SessionPlugin, Shown, carry_out};
+use super::session::{SessionPlugin, ShownDashboard, carry_out};
 use crate::window::ui::{AtlasState, Interface, SessionCommand, UiState};
 use motion_lab_core::configuration::Coordinates;
 use motion_lab_sim::recording::Run;
@@ -45,7 +45,7 @@ impl Lab {
         let world = self.app.world_mut();
         let mut commands = Vec::new();
         world.resource_scope(|world, mut interface: Mut<Interface>| {
-            let (shown, history) = (world.resource::<Shown>(), world.resource::<History>());
+            let (shown, history) = (world.resource::<ShownDashboard>(), world.resource::<History>());
             crate::window::ui::lab(ui, &shown.0, history, &mut interface.0, &mut commands);
         });
         if world.contains_resource::<super::desktop::dialogs::Dialogs>() {

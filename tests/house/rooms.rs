@@ -70,6 +70,30 @@ fn pages_keep_the_line_width() {
 }
 
 #[test]
+fn the_files_that_pages_name_exist() {
+    let known: Vec<String> = FOLDERS
+        .iter()
+        .flat_map(|folder| files(&root().join(folder), "rs"))
+        .map(|path| format!("/{}", path.strip_prefix(root()).unwrap().display()))
+        .collect();
+    let mut named = 0;
+    for page in
+        ["ARCHITECTURE.md", "CONTRIBUTING.md", "docs/how-we-know.md", "docs/web.md", "src/guide/write_a_planner.md"]
+    {
+        let text = fs::read_to_string(root().join(page)).unwrap();
+        for name in text.split(|c: char| !(c.is_ascii_alphanumeric() || "_/.".contains(c))) {
+            // a name of a pattern, as of `NAME.rs`, is of no file
+            if name.ends_with(".rs") && name.len() > 3 && !name.contains("NAME") && name != "src/main.rs" {
+                named += 1;
+                let is_known = known.iter().any(|path| path.ends_with(&format!("/{name}")));
+                assert!(is_known, "{page} names {name}, and there is no such file");
+            }
+        }
+    }
+    assert!(named > 80, "{named} files: this test no longer reads the pages");
+}
+
+#[test]
 fn no_room_is_crowded() {
     let mut rooms: BTreeMap<String, usize> = BTreeMap::new();
     for source in sources() {

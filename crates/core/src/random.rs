@@ -15,7 +15,7 @@ use xxhash_rust::xxh3::xxh3_128_with_seed;
 
 use crate::num;
 
-/// The seed of a run.
+/// The seed of a run: every random number of the run follows from it. [`Stream`] draws them, one stream for each name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Seed(pub u64);

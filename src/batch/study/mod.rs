@@ -58,7 +58,7 @@ pub enum RunInputs {
 /// assert_eq!(study.runs(), 6);
 /// let run = study.setup(3).unwrap();
 /// assert_eq!((run.seed.0, run.config.worlds[0].robots[0].start[0]), (11, 7.0));
-/// # Ok::<(), motion_lab::batch::SweepPlanError>(())
+/// # Ok::<(), motion_lab::batch::StudyError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Study {

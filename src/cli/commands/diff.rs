@@ -31,7 +31,7 @@ pub struct Diff {
     json: bool,
 }
 
-/// The comparison of two logs.
+/// What differs between two logs: the answer of `diff`, printed in words or as JSON.
 #[derive(Serialize)]
 struct LogDifference {
     equal: bool,

@@ -11,7 +11,7 @@ use super::downloads::picture;
 use super::error::PageError;
 use super::inbox::{Incoming, take_all, wake};
 use super::listener::tell;
-use super::message::{Input, Message, PageAction, PageRequest};
+use super::message::{Input, Message, PageRequest, WidgetAction};
 use super::report::Sent;
 use super::run_link::link_of;
 use crate::web::link::MAX_LINK_TICK;
@@ -257,30 +257,30 @@ fn check(world: &World, script: Script) -> Result<(), PageError> {
 }
 
 /// Acts on a widget by AccessKit's requests, as assistive technology does.
-fn act(world: &mut World, id: &str, action: PageAction, value: Option<String>) -> Result<(), PageError> {
+fn act(world: &mut World, id: &str, action: WidgetAction, value: Option<String>) -> Result<(), PageError> {
     let target_node = NodeId::from(id.parse::<u64>().map_err(|_| PageError::Control(id.to_owned()))?);
     let request = |action, data| {
         egui::Event::AccessKitActionRequest(ActionRequest { action, target_tree: TreeId::ROOT, target_node, data })
     };
     let staged = &mut world.resource_mut::<Staged>().0;
     match (action, value) {
-        (PageAction::Click, _) => staged.push_back(vec![request(accesskit::Action::Click, None)]),
-        (PageAction::Focus, _) => staged.push_back(vec![request(accesskit::Action::Focus, None)]),
-        (PageAction::Set, Some(value)) => match value.parse::<f64>().ok().filter(|v| v.is_finite()) {
+        (WidgetAction::Click, _) => staged.push_back(vec![request(accesskit::Action::Click, None)]),
+        (WidgetAction::Focus, _) => staged.push_back(vec![request(accesskit::Action::Focus, None)]),
+        (WidgetAction::Set, Some(value)) => match value.parse::<f64>().ok().filter(|v| v.is_finite()) {
             Some(number) => {
                 let data = Some(ActionData::NumericValue(number));
                 staged.push_back(vec![request(accesskit::Action::SetValue, data)]);
             }
             None => return Err(PageError::Number(value)),
         },
-        (PageAction::Type, Some(value)) => {
+        (WidgetAction::Type, Some(value)) => {
             let key =
                 |key, modifiers| egui::Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
             staged.push_back(vec![request(accesskit::Action::Focus, None)]);
             staged.push_back(vec![key(egui::Key::A, egui::Modifiers::COMMAND), egui::Event::Text(value)]);
             staged.push_back(vec![key(egui::Key::Enter, egui::Modifiers::NONE)]);
         }
-        (PageAction::Set | PageAction::Type, None) => return Err(PageError::NoValue),
+        (WidgetAction::Set | WidgetAction::Type, None) => return Err(PageError::NoValue),
     }
     Ok(())
 }

@@ -2,6 +2,7 @@
 
 use crate::web::link::{LinkError, MAX_LINK_TICK, cited};
 use crate::window::for_page::SessionError;
+use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::run::ScriptError;
 
 /// Why the lab could not do what the page asked. The lab goes on as it was.
@@ -32,7 +33,7 @@ pub enum PageError {
     #[error("{} is no lesson: docs/web/course.md lists them", cited(.0))]
     Lesson(String),
     /// No question of Query has this name.
-    #[error("{} is no tab: it is one of intersects, distance, witness and swept", cited(.0))]
+    #[error("{} is no tab: it is one of {}", cited(.0), Tab::ALL.map(Tab::name).join(", "))]
     Tab(String),
     /// Not a configuration of Query's robot.
     #[error("configuration: {0}")]

@@ -70,10 +70,11 @@ pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::
         .run();
 }
 
-/// Sends the lab a message: JSON of an [`PageRequest`].
+/// Sends the lab a message: the JSON of a [`PageRequest`], at most 65,536 bytes.
 ///
 /// # Errors
-/// The reason, when it is no message, it or its mark is too long, or too many wait.
+/// Says why the message is refused: it is too long, it is not a [`PageRequest`], its `request` has more than 100 bytes,
+/// or too many messages wait for the lab's next frame.
 #[wasm_bindgen]
 pub fn lab_send(message: &str) -> Result<(), JsError> {
     if message.len() > MAX_BYTES {

@@ -28,7 +28,7 @@ pub enum Message {
         /// Its number.
         id: String,
         /// The action.
-        action: PageAction,
+        action: WidgetAction,
         /// The number or text, where the action takes one.
         #[serde(default)]
         value: Option<String>,
@@ -184,7 +184,7 @@ impl Input {
 /// An action on a widget.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum PageAction {
+pub enum WidgetAction {
     /// Press it.
     Click,
     /// Give it the focus.

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::listener::tell;
 use crate::web::mirror::mirror;
 use crate::web::runs::RunParts;
-use crate::window::for_page::{Interface, Shown};
+use crate::window::for_page::{Interface, ShownDashboard};
 use crate::window::ui::{AtlasState, LessonState, PlanState, Settings};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, Theme, readout};
@@ -120,7 +120,7 @@ fn copied(world: &mut World) {
 
 /// The state that the page shows by its own means.
 fn state(world: &World) -> Value {
-    let shown = &world.resource::<Shown>().0;
+    let shown = &world.resource::<ShownDashboard>().0;
     let ui = &world.resource::<Interface>().0;
     let robots = shown.cockpits.iter().flat_map(|c| &c.robots).map(|r| {
         let coordinates: &[f64] = &r.coordinates;

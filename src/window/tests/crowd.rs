@@ -40,7 +40,7 @@ fn step(harness: &mut Harness<'_, Lab>, ticks: u64) {
 
 /// The point of the screen where a point of the world is, while the whole world is shown.
 fn on_screen(harness: &Harness<'_, Lab>, at: Point2) -> Pos2 {
-    let shown = &harness.state().app.world().resource::<Shown>().0.cockpits[0];
+    let shown = &harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0];
     let [x, y] = crate::window::ui::paint::canvas::fit(&shown.world, paper(harness, "30 robots")).screen_from_world(at);
     pos2(x as f32, y as f32)
 }
@@ -48,7 +48,8 @@ fn on_screen(harness: &Harness<'_, Lab>, at: Point2) -> Pos2 {
 #[test]
 fn a_robot_is_found_by_its_name_and_only_who_is_picked_has_words_and_a_scan() {
     let (mut harness, config) = warehouse(30, WIDE);
-    let shown = |harness: &Harness<'_, Lab>| harness.state().app.world().resource::<Shown>().0.cockpits[0].clone();
+    let shown =
+        |harness: &Harness<'_, Lab>| harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].clone();
     assert!(shown(&harness).robots.is_empty(), "nobody is picked");
     assert_eq!(shown(&harness).crowd.unwrap().names.len(), 30);
     harness.get_by_label("find a robot").focus();
@@ -84,7 +85,7 @@ fn the_crowd_that_is_shown_is_the_run_at_its_tick() {
     let (mut harness, config) = warehouse(30, WIDE);
     step(&mut harness, 3);
     let app = harness.state().app.world();
-    let crowd = app.resource::<Shown>().0.cockpits[0].crowd.clone().unwrap();
+    let crowd = app.resource::<ShownDashboard>().0.cockpits[0].crowd.clone().unwrap();
     let all = view(app);
     assert_eq!((crowd.now.len(), crowd.before.len()), (30, 30));
     let footprint = |crowd: &CrowdView, place| crowd.footprint(place).unwrap().0;
@@ -101,7 +102,7 @@ fn the_crowd_that_is_shown_is_the_run_at_its_tick() {
     // a jump back is no way that they took
     harness.state_mut().app.world_mut().write_message(RunCommand::from(TransportCommand::Seek(1)));
     harness.step();
-    let crowd = harness.state().app.world().resource::<Shown>().0.cockpits[0].crowd.clone().unwrap();
+    let crowd = harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].crowd.clone().unwrap();
     assert_eq!(crowd.before, crowd.now);
     assert_eq!(footprint(&crowd, 29), view(harness.state().app.world())[29].footprint, "lists are written anew");
 }
@@ -132,7 +133,7 @@ fn a_click_picks_another_drives_and_a_drag_looks_elsewhere() {
     assert_eq!(picked(&harness), None);
     // magnified, the paper is dragged with what is under the pointer
     click(&mut harness, "magnify");
-    let name = harness.state().app.world().resource::<Shown>().0.cockpits[0].world.name.clone();
+    let name = harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].world.name.clone();
     let camera = |h: &Harness<'_, Lab>| interface(h).cameras[&name];
     let before = camera(&harness);
     assert!((before.zoom - 1.5).abs() < 1e-9);
@@ -143,7 +144,7 @@ fn a_click_picks_another_drives_and_a_drag_looks_elsewhere() {
     }
     pointer(&mut harness, from - egui::vec2(40.0, 0.0), Some(false));
     let moved = camera(&harness).centre.unwrap().x - before.centre.unwrap().x;
-    let shown = &harness.state().app.world().resource::<Shown>().0.cockpits[0];
+    let shown = &harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0];
     let scale = 1.5 * crate::window::ui::paint::canvas::fit(&shown.world, paper(&harness, "30 robots")).px_per_metre();
     assert!((moved - 40.0 / scale).abs() < 0.2 * 40.0 / scale, "40 points to the left: {moved}");
     click(&mut harness, "show the whole world");
@@ -158,7 +159,7 @@ fn the_view_follows_who_is_picked() {
     click(&mut harness, "Follow");
     step(&mut harness, 20);
     harness.step();
-    let name = harness.state().app.world().resource::<Shown>().0.cockpits[0].world.name.clone();
+    let name = harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].world.name.clone();
     let (camera, robot) = (interface(&harness).cameras[&name], harness.state().robot(0));
     let at = robot.footprint.parts()[0].pose().position();
     assert!((camera.centre.unwrap() - at).norm() < 1e-9 && camera.zoom > 1.0, "{camera:?} {at}");

@@ -38,7 +38,7 @@ fn a_click_on_a_door_closes_it_and_its_link_opens_it_again() {
         click(&mut harness, "Step");
         assert!(harness.query_by_label("comes with the next tick").is_none());
         let standing = |h: &Harness<'_, Lab>| {
-            let shown = &h.state().app.world().resource::<Shown>().0;
+            let shown = &h.state().app.world().resource::<ShownDashboard>().0;
             shown.cockpits[0].atlas.world().door("door B").unwrap().open
         };
         assert!(!standing(&harness), "the pane shows it closed");

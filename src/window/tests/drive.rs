@@ -187,7 +187,7 @@ fn links_keep_their_places_while_the_run_plays() {
             let mut rooms = std::collections::BTreeSet::new();
             for _ in 0..40 {
                 harness.run_steps(10);
-                let shown = &harness.state().app.world().resource::<Shown>().0;
+                let shown = &harness.state().app.world().resource::<ShownDashboard>().0;
                 rooms.insert(shown.cockpits[2].robots[0].no_room.is_some());
                 assert_eq!(at(&harness), before, "{world} at {size:?}");
             }

@@ -69,7 +69,7 @@ fn what_holds_it_is_named() {
     let command = motion_lab_sim::simulation::RobotCommand { robot: "Tug".into(), input };
     harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
     harness.run_steps(300);
-    let tug = &harness.state().app.world().resource::<Shown>().0.cockpits[0].robots[0];
+    let tug = &harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].robots[0];
     assert!(tug.flash && tug.contacts > 0, "it drove into something");
     let scene = motion_lab_core::collision::Scene::of_world(&yard());
     let wall = motion_lab_core::collision::Collision::witness(&scene, &tug.footprint).unwrap().obstacle;

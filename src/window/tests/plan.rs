@@ -175,7 +175,7 @@ fn a_path_is_played_as_a_run_and_drawn_over_it() {
     harness.get_by_label("Reach \u{b7} Workbench \u{b7} on its path");
     assert!(harness.query_by_label_contains("three robots, three spaces").is_none(), "one robot in one space");
     // the arm's trail leaves out where it stood before it was put at the start
-    assert_eq!(harness.state().app.world().resource::<Shown>().0.cockpits[0].robots[0].put, 1);
+    assert_eq!(harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].robots[0].put, 1);
     let over = plan(&harness).over_world("Workbench").cloned().unwrap();
     assert!(
         over.items.iter().any(|item| item.id == "path") && !over.items.iter().any(|item| item.id.starts_with("start"))

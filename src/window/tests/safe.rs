@@ -57,7 +57,7 @@ fn pointing_at_the_drawing_or_the_words_under_it_fades_nothing() {
     pause(&mut harness);
     let rusty = harness.state().robot(0).footprint.parts()[0].pose().position();
     let paper = paper(&harness, "Apartment");
-    let shown = harness.state().app.world().resource::<Shown>().0.cockpits[0].world.clone();
+    let shown = harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].world.clone();
     let [x, y] = crate::window::ui::paint::canvas::fit(&shown, paper).screen_from_world(rusty);
     let readout = words(&harness).into_iter().find(|(text, ..)| text.starts_with("Pose2 {")).unwrap().1.center();
     for place in [pos2(x as f32, y as f32), paper.center(), paper.left_center() + egui::vec2(9.0, 0.0), readout] {

@@ -159,7 +159,8 @@ fn loops_speeds_and_contacts() {
     let transport = harness.state().transport();
     assert!(transport.looping && transport.frontier == frontier && transport.tick < frontier, "{transport:?}");
     pause(&mut harness);
-    let next = harness.state().app.world().resource::<Shown>().0.next_contact.expect("the arm meets obstacles");
+    let next =
+        harness.state().app.world().resource::<ShownDashboard>().0.next_contact.expect("the arm meets obstacles");
     click(&mut harness, "Next contact");
     assert_eq!(harness.state().transport().tick, next);
     assert!(view(harness.state().app.world()).iter().any(|r| r.in_contact));

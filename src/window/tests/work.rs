@@ -347,7 +347,8 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
 #[test]
 fn the_three_robots_come_back_from_any_run_and_a_new_run_says_what_became_of_the_old() {
     let mut harness = lab(WIDE);
-    let cockpits = |harness: &Harness<'_, Lab>| harness.state().app.world().resource::<Shown>().0.cockpits.len();
+    let cockpits =
+        |harness: &Harness<'_, Lab>| harness.state().app.world().resource::<ShownDashboard>().0.cockpits.len();
     click(&mut harness, "Atlas");
     click(&mut harness, "Run this world");
     assert_eq!(cockpits(&harness), 1);

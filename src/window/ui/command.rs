@@ -3,7 +3,7 @@
 use super::capture_state::CaptureOrder;
 use motion_lab_sim::simulation::{RobotCommand, RunCommand, TransportCommand};
 
-/// A request of a widget. Widgets change nothing but their own [`UiState`].
+/// A request of a widget. Widgets change nothing but their own [`UiState`](super::UiState).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Command {
     /// Move the run, or give a robot an input.

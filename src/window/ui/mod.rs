@@ -37,7 +37,7 @@ pub(crate) use crowd::values::{CrowdRobot, CrowdView, MAX_SHOWN_EACH, Stance};
 pub(crate) use cspace::put_at::footprint_at;
 pub(crate) use cspace::{CspaceState, LinkedState, TRAIL};
 pub(crate) use dashboard::blend::blend;
-pub(crate) use dashboard::goal::ParkingGoal;
+pub(crate) use dashboard::goal::ParkingExercise;
 pub(crate) use dashboard::hand::arm::{joints, turned};
 pub(crate) use dashboard::twin_state::AskedTwin;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};

@@ -7,7 +7,7 @@ use bevy_egui::egui::Rect;
 use super::atlas::Mode;
 use super::paint::camera::Camera;
 use super::time::span::TickSpan;
-use super::{AtlasState, CockpitRobot, ParkingGoal, Settings};
+use super::{AtlasState, CockpitRobot, ParkingExercise, Settings};
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Shape};
 use motion_lab_core::picture::{Role, Theme};
 use motion_lab_core::random::Seed;
@@ -100,7 +100,7 @@ pub struct UiState {
     /// Whether the list of keys is open.
     pub help: bool,
     /// The name of a car and its parking exercise.
-    pub goal: Option<(String, ParkingGoal)>,
+    pub goal: Option<(String, ParkingExercise)>,
     /// Indices of the hidden plots.
     pub hidden_plots: Vec<usize>,
     /// The flash shown for each robot, by name.

@@ -26,7 +26,7 @@ pub use counted::{Counted, QueryCounts};
 pub use motion::certificate::{Certificate, CertificateError, ProvenStep};
 pub use motion::conservative_advancement::{BRACKET, march};
 #[doc(hidden)]
-pub use motion::keeps::{Blocked, is_free_among, keeps};
+pub use motion::keeps::{UnkeptMargin, is_free_among, keeps};
 pub use motion::verdict::{EdgeVerdict, MarchOptions, UnresolvedReason};
 pub use motion::verifier::verify_certificate;
 pub use narrow::pair::{distance, footprint_distance, touch};

@@ -150,10 +150,11 @@ impl Shape {
         Ok(Shape::Rectangle { min, max })
     }
 
-    /// A convex polygon.
+    /// The convex polygon with these vertices, metres, in the shape's frame. They may go round in either direction; it
+    /// stores them counter-clockwise, the first one first.
     ///
     /// # Errors
-    /// [`ShapeError::Polygon`] when the vertices are not a convex polygon.
+    /// [`ShapeError::Polygon`] says why they are not the vertices of a strictly convex polygon.
     pub fn try_polygon(vertices: &[Point2]) -> Result<Self, ShapeError> {
         Ok(Shape::Polygon(ConvexPolygon::try_new(vertices)?))
     }

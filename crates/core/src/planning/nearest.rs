@@ -129,8 +129,8 @@ impl NearestSoFar {
         }
     }
 
-    /// Whether nothing at this squared distance or farther can be among the best. At the same distance as the last of
-    /// them a lower number could.
+    /// Whether no point at this squared distance or farther can still be among the best. A point exactly as far as the
+    /// last of them can be, if its number is lower.
     fn is_out_of_reach(&self, squared: f64) -> bool {
         let is_full = self.best.len() >= self.most;
         sqrt(squared) > self.within || (is_full && self.best.last().is_none_or(|last| squared > last.0))

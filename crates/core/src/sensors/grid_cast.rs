@@ -2,7 +2,7 @@
 
 use super::cast_segments::RayMemory;
 use super::kernel::{Kernel, raise};
-use super::open_rays::Groups;
+use super::open_rays::RayGroups;
 use super::rays::Fan;
 use super::sectors;
 use super::view::View;
@@ -19,18 +19,18 @@ pub(super) struct Boundary<'a> {
 /// The working memory of a walk through the grid, kept from scan to scan.
 #[derive(Clone, Debug)]
 pub(super) struct Walk {
-    groups: Groups,
+    groups: RayGroups,
     /// The number of the scan in which each segment or disc was last met.
     met: Vec<u32>,
     scan: u32,
     /// The cells of the current ring that have to be visited.
     cells: Vec<usize>,
-    pending: Pending,
+    pending: PendingSegments,
 }
 
 /// The segments met, by their numbers in the grid, in the order they were met.
 #[derive(Clone, Debug)]
-struct Pending {
+struct PendingSegments {
     numbers: Vec<u32>,
     /// The place in `numbers` of the first segment that is not raised yet.
     from: usize,
@@ -43,16 +43,16 @@ struct Pending {
 impl Default for Walk {
     fn default() -> Self {
         let arrays = Box::new([[f64::NAN; BATCH]; 4]);
-        let pending = Pending { numbers: Vec::new(), from: 0, count: 0, open: u64::MAX, arrays };
-        Walk { groups: Groups::default(), met: Vec::new(), scan: 0, cells: Vec::new(), pending }
+        let pending = PendingSegments { numbers: Vec::new(), from: 0, count: 0, open: u64::MAX, arrays };
+        Walk { groups: RayGroups::default(), met: Vec::new(), scan: 0, cells: Vec::new(), pending }
     }
 }
 
-impl Pending {
+impl PendingSegments {
     /// Raises the rays that meet the pending segments. If more are to come, fewer than eight are kept for later. That
     /// is safe: a ray only counts as open a little longer then.
     fn raise(&mut self, more: bool, cells: &Cells, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut RayMemory) {
-        let Pending { numbers, from, count, open, arrays } = self;
+        let PendingSegments { numbers, from, count, open, arrays } = self;
         let kept = if more { (*count - *from) % LANES } else { 0 };
         let [ax, ay, bx, by] = &mut **arrays;
         fan.open = *open;

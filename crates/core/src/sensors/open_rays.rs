@@ -1,4 +1,4 @@
-//! `Groups`, which tracks the rays of a scan that may still hit something nearer.
+//! `RayGroups`, which tracks the rays of a scan that may still hit something nearer.
 
 use super::kernel::Kernel;
 use super::rays::Fan;
@@ -8,7 +8,7 @@ use crate::collision::LANES;
 /// The rays in up to 64 groups of whole blocks, and which groups are open. A group is open while one of its rays has no
 /// hit in the cells visited so far.
 #[derive(Clone, Debug)]
-pub(super) struct Groups {
+pub(super) struct RayGroups {
     blocks: usize,
     /// The open groups, a bit each.
     open: u64,
@@ -31,13 +31,13 @@ const NEARER: f64 = 1e-6;
 /// A group that spans more of a turn than this counts as lying in all sectors.
 const NEARLY_ALL: f64 = 0.95;
 
-impl Default for Groups {
+impl Default for RayGroups {
     fn default() -> Self {
-        Groups { blocks: 1, open: 0, sectors: Vec::new(), open_lanes: Vec::new(), any: [0; 64] }
+        RayGroups { blocks: 1, open: 0, sectors: Vec::new(), open_lanes: Vec::new(), any: [0; 64] }
     }
 }
 
-impl Groups {
+impl RayGroups {
     /// Begins a scan: opens all groups and finds the sectors of each.
     pub(super) fn begin(&mut self, fan: &Fan, view: &View) {
         self.blocks = fan.blocks.len().div_ceil(64).max(1);

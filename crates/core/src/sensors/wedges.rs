@@ -10,7 +10,8 @@ const TURNS_ERROR: f64 = 4e-6;
 /// Where p x q is below this fraction of its two products, the exact predicate decides.
 const DOUBT: f64 = 1e-8;
 
-/// Adding it rounds a small number to an integer, which is then in the lowest bits.
+/// A number whose addition rounds: a number below 2^51 in magnitude becomes the nearest integer, which stands in the
+/// lowest bits of the sum.
 const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5 x 2^52
 
 /// The bearing of a vector in turns, in [0, 1], to within 2e-6: exact enough to say which rays may meet something, not

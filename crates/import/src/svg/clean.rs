@@ -168,11 +168,11 @@ fn check_uses(root: Node) -> Result<(), ImportError> {
             targets.entry(id).or_insert(node);
         }
     }
-    expand(root, &targets, 0, &mut Left { elements: MAX_ELEMENTS, path_data: MAX_PATH_DATA })
+    expand(root, &targets, 0, &mut RemainingAllowance { elements: MAX_ELEMENTS, path_data: MAX_PATH_DATA })
 }
 
 /// The elements, and the bytes of path data, that a drawing may still have.
-struct Left {
+struct RemainingAllowance {
     elements: usize,
     path_data: usize,
 }
@@ -182,7 +182,7 @@ fn expand<'a>(
     node: Node<'a, 'a>,
     targets: &BTreeMap<&str, Node<'a, 'a>>,
     depth: usize,
-    left: &mut Left,
+    left: &mut RemainingAllowance,
 ) -> Result<(), ImportError> {
     if !is_supported(&node) {
         return Ok(());

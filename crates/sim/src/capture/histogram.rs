@@ -4,7 +4,7 @@ use super::chart::{PlotChart, PlotLine};
 use super::{Captured, Note};
 use motion_lab_core::picture::{Figure, Panel};
 
-/// A number of many runs.
+/// One quantity with its values in many runs, to be drawn as a histogram.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distribution {
     /// What it is, with its unit.

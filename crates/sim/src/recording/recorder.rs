@@ -163,7 +163,7 @@ impl Recorder {
         self.world.resource::<Transport>()
     }
 
-    /// The script so far.
+    /// The run's script: all its inputs and changes, past and still to come, in order of their ticks.
     pub fn script(&self) -> &Script {
         self.world.resource::<PendingInput>().script()
     }

@@ -73,7 +73,8 @@ impl Script {
         Script { version: SCRIPT_VERSION, events: Vec::new(), changes: Vec::new() }
     }
 
-    /// The script of these events and changes.
+    /// A script of these events and changes, in the version that they need. It is not checked: [`check`](Self::check)
+    /// does that.
     pub fn new(events: Vec<Event>, changes: Vec<WorldEvent>) -> Self {
         Script { version: Script::version_of(&changes), events, changes }
     }

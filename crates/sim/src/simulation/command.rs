@@ -1,7 +1,7 @@
 //! `RunCommand`, by which whatever shows a run changes it: a queue, drained in order once an update.
 //!
 //! What else changes a run is a function on the whole world, for code that has it: [`start_run`](super::start_run) and
-//! [`start_recipe`](super::start_recipe) begin another run, [`seek()`](super::seek()), [`step()`](super::step()) and
+//! [`start_recipe`] begin another run, [`seek()`], [`step()`] and
 //! [`play_tick`](super::play_tick) move it, [`restore`](super::restore) puts a frame back. The queue calls the same.
 
 use bevy::prelude::*;

@@ -12,7 +12,8 @@ pub const LEG_SECONDS: f64 = 10.0;
 /// The script's speed as a fraction of the car's greatest speed.
 const SPEED: f64 = 0.5;
 
-/// The steering angle of each leg, from the seed. Even legs back up, odd legs go ahead.
+/// Hitch's tour: six legs of 10 s, backward and forward in turn, then again from the first. Each leg has a steering
+/// angle drawn from the seed, radians. Legs count from 0: even legs back up, odd legs go ahead.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reversing {
     steering: [f64; LEGS],

@@ -93,7 +93,8 @@ pub fn lacks_log(study: &Study, row: &RunRow, keep: Keep, logs: &Path) -> bool {
     row.could_run(study.columns()) && is_kept && !log_name(logs, row.row).exists()
 }
 
-/// The same command runs a stopped row again, so that the beginning of its log is of no use.
+/// Removes what was written of a stopped run's log, and returns [`Ran::Stopped`]. When the same command is run again,
+/// the row begins anew.
 fn stopped(log: &Path) -> Ran {
     remove_partial(log);
     Ran::Stopped

@@ -379,7 +379,7 @@ fn a_task_of_the_rover_is_not_done_by_the_car() {
     harness.run_steps(3);
     harness.key_down(Key::ArrowUp);
     let is_held = |harness: &Harness<'_, Lab>| {
-        let car = &harness.state().app.world().resource::<Shown>().0.cockpits[2].robots[0];
+        let car = &harness.state().app.world().resource::<ShownDashboard>().0.cockpits[2].robots[0];
         car.manual && car.flash
     };
     let is_seen = (0..60).any(|_| {

@@ -7,8 +7,9 @@ use motion_lab_core::worlds::World;
 use motion_lab_sim::atlas::{Number, Op};
 
 impl AtlasState {
-    /// The numbers of what is selected, or of the world, as shown. Corners keep their numbers while a thing is
-    /// selected, although a world has an order of its own for those of a hull or a polygon.
+    /// The numbers that the panel shows: those of the selected thing, or the world's bounds if none is selected. While
+    /// a hull or polygon stays selected, its corners keep their numbers, even where the world stores them in another
+    /// order.
     pub(super) fn numbers(&self) -> Vec<Number> {
         let Some(name) = &self.selected else { return self.seen().bounds() };
         let shape = self.seen().shape(name).zip(self.shape.as_ref());

@@ -174,7 +174,9 @@ fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str) {
     }
 }
 
-/// Shows the field of a number. What is typed changes the world when it is done, what is dragged when it is let go.
+/// Shows a number as a field to type into or to drag. `of` names the thing for screen readers. Typed text changes the
+/// world when the field loses the focus; Escape discards it. A drag is shown as it goes, and changes the world when the
+/// pointer is released.
 fn field(ui: &mut Ui, atlas: &mut AtlasState, of: &str, number: &Number, own: &NumberField) {
     let label = ui.label(&number.name);
     let (mut value, format) = (number.value, ui.style().number_formatter.clone());

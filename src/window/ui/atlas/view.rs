@@ -305,7 +305,9 @@ fn put_panel(ui: &mut Ui, state: &mut UiState) {
     }
 }
 
-/// Offers to put the robot there in the run under way, if it lives there, and to begin a run from here.
+/// Shows two buttons for the atlas's selected robot. The first puts that robot of the run under way where it stands on
+/// the atlas; it is disabled unless the run has the robot in a world of this name. The second begins a run of this
+/// world with its robots where they stand.
 fn into_the_run(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &UiState, commands: &mut Vec<Command>) {
     let atlas = state.atlas.atlas();
     let Some(robot) = atlas.robots().get(state.atlas.robot) else { return };

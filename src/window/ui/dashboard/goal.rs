@@ -1,4 +1,5 @@
-//! `ParkingGoal`, "one metre to the left": the trailer is to end a metre left of where it stood, facing the same way.
+//! `ParkingExercise`, "one metre to the left": the trailer is to end a metre left of where it stood, facing the same
+//! way.
 
 use crate::window::ui::CockpitRobot;
 use motion_lab_core::configuration::Coordinates;
@@ -15,7 +16,7 @@ pub const ANGLE: f64 = 0.05;
 
 /// The parking exercise.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ParkingGoal {
+pub struct ParkingExercise {
     /// The pose wanted of the trailer.
     pub trailer: Pose2,
     /// The trailer's pose when the goal was set, and the coordinates of the car's configuration.
@@ -70,19 +71,19 @@ pub fn trailer_of(car: &Footprint) -> Option<&Pose2> {
     car.parts().get(1).map(|part| part.pose())
 }
 
-impl ParkingGoal {
+impl ParkingExercise {
     /// A metre to the left of where a car's trailer stands now. `start` is the car's configuration, `reversals` the
     /// count of its changes of direction. `None` for a car without a trailer.
     pub fn left_of(car: &Footprint, start: &Coordinates, reversals: u32) -> Option<Self> {
         let from = *trailer_of(car)?;
         let at = from.transform(Point2::new(0.0, 1.0));
         let trailer = Pose2 { x: at.x, y: at.y, theta: from.theta };
-        Some(ParkingGoal { trailer, from, start: start.clone(), reversals, tick: None, is_put: false, score: None })
+        Some(ParkingExercise { trailer, from, start: start.clone(), reversals, tick: None, is_put: false, score: None })
     }
 
     /// The same exercise from its start, for a car that is put back there.
     pub fn again(&self) -> Self {
-        ParkingGoal { tick: None, is_put: true, score: None, ..self.clone() }
+        ParkingExercise { tick: None, is_put: true, score: None, ..self.clone() }
     }
 
     /// Keeps the score: it counts from the first tick after the goal was set, and is taken when the goal is reached.
@@ -163,8 +164,8 @@ mod tests {
     }
 
     /// The exercise of a car that stands there.
-    fn goal(x: f64, y: f64, theta: f64) -> ParkingGoal {
-        ParkingGoal::left_of(&towing(x, y, theta), &Coordinates::from_slice(&[x, y, theta, theta]), 2).unwrap()
+    fn goal(x: f64, y: f64, theta: f64) -> ParkingExercise {
+        ParkingExercise::left_of(&towing(x, y, theta), &Coordinates::from_slice(&[x, y, theta, theta]), 2).unwrap()
     }
 
     #[test]
@@ -185,7 +186,7 @@ mod tests {
         let alone = HITCH.footprint(&HitchCfg { body: Pose2::new(5.0, 6.0, 0.0), trailer: None });
         assert_eq!(goal.words(&alone, 5), "goal: put the trailer back on");
         let scored =
-            ParkingGoal { score: Some(GoalScore { seconds: 12.34, reversals: 1, metres: 9.87 }), ..goal.clone() };
+            ParkingExercise { score: Some(GoalScore { seconds: 12.34, reversals: 1, metres: 9.87 }), ..goal.clone() };
         let words = "Reached: one metre to the left in 12.3 s, 1 reversal, 9.9 m driven.";
         assert_eq!((scored.words(&alone, 5).as_str(), scored.again().score), (words, None));
         let items = goal.items(&start);

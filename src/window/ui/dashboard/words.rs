@@ -9,7 +9,9 @@ use super::hand::handles;
 use super::{doors, twins};
 use crate::window::ui::paint::frame;
 use crate::window::ui::paint::scale_bar::scale_bar;
-use crate::window::ui::{Cockpit, CockpitRobot, Command, FrameColours, Notice, ParkingGoal, SessionCommand, UiState};
+use crate::window::ui::{
+    Cockpit, CockpitRobot, Command, FrameColours, Notice, ParkingExercise, SessionCommand, UiState,
+};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::picture::{Fit, Role, readout, readout_lines};
 use motion_lab_core::robots::AnyRobot;
@@ -313,7 +315,7 @@ fn links(
             (None, Some(_)) => {
                 let link = ui.link("goal: one metre to the left");
                 if link.on_hover_text("The trailer is to end one metre left of here, facing the same way").clicked() {
-                    let set = ParkingGoal::left_of(&robot.footprint, &robot.coordinates, robot.reversals);
+                    let set = ParkingExercise::left_of(&robot.footprint, &robot.coordinates, robot.reversals);
                     state.goal = set.map(|goal| (robot.name.clone(), goal));
                 }
             }

@@ -78,7 +78,7 @@ pub enum HandAction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum HeldAction {
     /// Drive the robot in hand while the key is held.
-    Drive(Push),
+    Drive(DriveDirection),
     /// Turn the joint of the handle with the focus: counter-clockwise, or clockwise.
     Turn { left: bool },
     /// Leave the handle with the focus.
@@ -146,7 +146,7 @@ impl From<AtlasAction> for Action {
 
 /// A direction in which a robot in hand is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Push {
+pub enum DriveDirection {
     Forward,
     Backward,
     Left,

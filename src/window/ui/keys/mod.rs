@@ -7,7 +7,7 @@ use motion_lab_sim::manifest::Widget;
 mod action;
 
 pub use action::{
-    Action, AtlasAction, CameraAction, Direction, HandAction, HeldAction, Push, SessionAction, TimeAction,
+    Action, AtlasAction, CameraAction, Direction, DriveDirection, HandAction, HeldAction, SessionAction, TimeAction,
 };
 
 /// The states in which a key is active.
@@ -90,14 +90,14 @@ pub const BINDINGS: [Binding; 57] = [
     plain(Action::Hand(HandAction::Arm(2)), Key::Num3, Scope::Always, "take the third pane's robot in hand, or let go"),
     plain(Action::Hand(HandAction::LetGo), Key::Escape, Scope::Armed, "let go"),
     plain(
-        Action::Held(HeldAction::Drive(Push::Forward)),
+        Action::Held(HeldAction::Drive(DriveDirection::Forward)),
         Key::ArrowUp,
         Scope::Armed,
         "forward; with Shift a quarter as fast",
     ),
-    plain(Action::Held(HeldAction::Drive(Push::Backward)), Key::ArrowDown, Scope::Armed, "backward"),
-    plain(Action::Held(HeldAction::Drive(Push::Left)), Key::ArrowLeft, Scope::Armed, "turn or steer left"),
-    plain(Action::Held(HeldAction::Drive(Push::Right)), Key::ArrowRight, Scope::Armed, "turn or steer right"),
+    plain(Action::Held(HeldAction::Drive(DriveDirection::Backward)), Key::ArrowDown, Scope::Armed, "backward"),
+    plain(Action::Held(HeldAction::Drive(DriveDirection::Left)), Key::ArrowLeft, Scope::Armed, "turn or steer left"),
+    plain(Action::Held(HeldAction::Drive(DriveDirection::Right)), Key::ArrowRight, Scope::Armed, "turn or steer right"),
     plain(
         Action::Held(HeldAction::Turn { left: true }),
         Key::ArrowLeft,
@@ -254,7 +254,7 @@ pub fn keep_arrows(ui: &Ui, id: Id) {
 }
 
 /// The directions whose keys are held down.
-pub fn pushed(input: &InputState) -> impl Iterator<Item = Push> {
+pub fn pushed(input: &InputState) -> impl Iterator<Item = DriveDirection> {
     BINDINGS.iter().filter(|b| input.key_down(b.key)).filter_map(|b| match b.action {
         Action::Held(HeldAction::Drive(push)) => Some(push),
         _ => None,

@@ -48,7 +48,7 @@ impl<'a> LabButton<'a> {
         LabButton { width, ..self }
     }
 
-    /// Whether it can be pressed. A disabled button is drawn in faint ink.
+    /// Sets whether the button can be pressed. A disabled button is drawn in faint ink.
     pub fn enabled(self, enabled: bool) -> Self {
         LabButton { enabled, ..self }
     }

@@ -176,7 +176,7 @@ impl PlanState {
         self.restart();
     }
 
-    /// The seed of the samples, and of what a sensor reads that lies.
+    /// The seed of the planner's samples, and of the sensor's noise where the sensor lies.
     pub fn seed(&self) -> Seed {
         self.seed
     }
@@ -354,7 +354,8 @@ impl PlanState {
         Some((cells, more))
     }
 
-    /// Looks at what the planner has grown.
+    /// Updates the effort and the drawing from what the planner has grown so far. At fast paces what was rejected is
+    /// not drawn.
     fn look(&mut self) {
         let (effort, mut drawn) = match &self.work {
             Some(work) => work.with(|attempt| (attempt.effort(), attempt.drawn())),

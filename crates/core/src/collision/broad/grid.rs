@@ -21,24 +21,24 @@ pub(crate) struct PieceGrid {
 struct GridItem {
     extent: Aabb,
     piece: u32,
-    cells: Block,
+    cells: CellRectangle,
 }
 
 /// A rectangle of cells, first and last included.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Block {
+struct CellRectangle {
     left: u16,
     right: u16,
     low: u16,
     high: u16,
 }
 
-impl Block {
+impl CellRectangle {
     fn count(&self) -> usize {
         usize::from(self.right - self.left + 1) * usize::from(self.high - self.low + 1)
     }
 
-    fn meets(&self, other: &Block) -> bool {
+    fn meets(&self, other: &CellRectangle) -> bool {
         self.left <= other.right && other.left <= self.right && self.low <= other.high && other.low <= self.high
     }
 }
@@ -102,14 +102,14 @@ impl PieceGrid {
     }
 
     /// The cells that a box touches. What lies beyond the grid counts as in the cells at its rim.
-    fn block(&self, e: &Aabb) -> Block {
+    fn block(&self, e: &Aabb) -> CellRectangle {
         // the cast saturates
         let column = |x: f64| (((x - self.corner.x) * self.inverse) as u16).min(self.columns - 1);
         let row = |y: f64| (((y - self.corner.y) * self.inverse) as u16).min(self.rows - 1);
-        Block { left: column(e.min.x), right: column(e.max.x), low: row(e.min.y), high: row(e.max.y) }
+        CellRectangle { left: column(e.min.x), right: column(e.max.x), low: row(e.min.y), high: row(e.max.y) }
     }
 
-    fn each_cell(&self, block: &Block, mut visit: impl FnMut(usize)) {
+    fn each_cell(&self, block: &CellRectangle, mut visit: impl FnMut(usize)) {
         for j in block.low..=block.high {
             for i in block.left..=block.right {
                 visit(usize::from(j) * usize::from(self.columns) + usize::from(i));
@@ -119,7 +119,12 @@ impl PieceGrid {
 
     /// Calls `visit` once with each box that touches a cell of `block` but none of `without`, until it returns true.
     #[inline]
-    fn each_in(&self, block: &Block, without: Option<&Block>, mut visit: impl FnMut(&GridItem) -> bool) {
+    fn each_in(
+        &self,
+        block: &CellRectangle,
+        without: Option<&CellRectangle>,
+        mut visit: impl FnMut(&GridItem) -> bool,
+    ) {
         for j in block.low..=block.high {
             for i in block.left..=block.right {
                 let cell = usize::from(j) * usize::from(self.columns) + usize::from(i);
@@ -135,7 +140,7 @@ impl PieceGrid {
     }
 
     /// A lower bound on the distance from the box to whatever touches no cell of the block, metres.
-    fn room(&self, block: &Block, from: &Aabb) -> f64 {
+    fn room(&self, block: &CellRectangle, from: &Aabb) -> f64 {
         let side = |inside: bool, room: f64| if inside { room } else { f64::INFINITY };
         let at = |corner: f64, cells: u16| corner + f64::from(cells) * self.size;
         let x = lesser(

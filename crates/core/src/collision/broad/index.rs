@@ -7,11 +7,11 @@ use crate::geometry::Aabb;
 
 /// The boxes around pieces, known by their numbers.
 #[derive(Clone)]
-pub struct Index(Structure);
+pub struct Index(BoxStructure);
 
 /// A few side by side, many in a grid, or under a tree where no grid fits them.
 #[derive(Clone)]
-enum Structure {
+enum BoxStructure {
     Few(Boxes),
     Grid(PieceGrid),
     Tree(BoxTree),
@@ -21,27 +21,27 @@ impl Index {
     /// The index of these boxes.
     pub fn new(extents: &[Aabb]) -> Self {
         if extents.len() <= FEW {
-            return Index(Structure::Few(Boxes::new(extents)));
+            return Index(BoxStructure::Few(Boxes::new(extents)));
         }
-        Index(PieceGrid::new(extents).map_or_else(|| Structure::Tree(BoxTree::new(extents)), Structure::Grid))
+        Index(PieceGrid::new(extents).map_or_else(|| BoxStructure::Tree(BoxTree::new(extents)), BoxStructure::Grid))
     }
 
     /// Calls `look` with every piece that may be as near as the least distance so far, which `look` returns, until no
     /// other can be. `within` is the least distance before the first call.
     pub fn nearest(&self, from: &Aabb, within: f64, look: impl FnMut(usize) -> f64) {
         match &self.0 {
-            Structure::Few(boxes) => boxes.nearest(from, within, look),
-            Structure::Grid(grid) => grid.nearest(from, within, look),
-            Structure::Tree(tree) => tree.nearest(from, within, look),
+            BoxStructure::Few(boxes) => boxes.nearest(from, within, look),
+            BoxStructure::Grid(grid) => grid.nearest(from, within, look),
+            BoxStructure::Tree(tree) => tree.nearest(from, within, look),
         }
     }
 
     /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
     pub fn each_near(&self, from: &Aabb, range: f64, visit: impl FnMut(usize) -> bool) {
         match &self.0 {
-            Structure::Few(boxes) => boxes.each_near(from, range, visit),
-            Structure::Grid(grid) => grid.each_near(from, range, visit),
-            Structure::Tree(tree) => tree.each_near(from, range, visit),
+            BoxStructure::Few(boxes) => boxes.each_near(from, range, visit),
+            BoxStructure::Grid(grid) => grid.each_near(from, range, visit),
+            BoxStructure::Tree(tree) => tree.each_near(from, range, visit),
         }
     }
 }
@@ -72,8 +72,8 @@ mod tests {
         {
             let extents = boxes(count, spread, &mut draws);
             let index = Index::new(&extents);
-            assert_eq!(matches!(index.0, Structure::Grid(_)), grid, "{count} in {spread}");
-            let tree = Index(Structure::Tree(BoxTree::new(&extents)));
+            assert_eq!(matches!(index.0, BoxStructure::Grid(_)), grid, "{count} in {spread}");
+            let tree = Index(BoxStructure::Tree(BoxTree::new(&extents)));
             for _ in 0..300 {
                 let side = 2.0 * spread as f64;
                 let (x, y) = (draws.uniform(-side, side), draws.uniform(-side, side));

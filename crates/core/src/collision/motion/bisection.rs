@@ -31,7 +31,7 @@ pub(crate) struct SpeedBounds {
 /// A free place of a motion: its parameter, its distance from contact in metres, and the closing speed there in metres
 /// per unit of s.
 #[derive(Clone, Copy)]
-struct Near {
+struct FreePlace {
     s: f64,
     gap: f64,
     closing: f64,
@@ -58,7 +58,7 @@ pub(crate) fn pinch<M: Motion>(
     ahead: ContactAhead,
 ) -> Option<Pinched> {
     let gap_at = |s: f64| gap(&motion.footprint_at(s));
-    let from = Near { s: ahead.from.s, gap: ahead.gap, closing: pace.speed };
+    let from = FreePlace { s: ahead.from.s, gap: ahead.gap, closing: pace.speed };
     let mut contact = ahead.contact;
     for _ in 0..CONTACTS {
         let (near, contact_at) = approach(gap_at, pace, from, contact)?;
@@ -78,7 +78,7 @@ fn prove_back<M: Motion>(
     motion: &M,
     pace: SpeedBounds,
     start: At,
-    near: Near,
+    near: FreePlace,
 ) -> Option<Result<Steps, f64>> {
     let At { s: lo, footprint: at_lo } = start;
     let mut steps = Steps::new();
@@ -112,7 +112,12 @@ fn prove_back<M: Motion>(
 }
 
 /// A free place and a contact after it, not farther apart than [`BRACKET`]; `None` after too many queries.
-fn approach(gap_at: impl Fn(f64) -> f64, pace: SpeedBounds, mut near: Near, mut contact: f64) -> Option<(Near, f64)> {
+fn approach(
+    gap_at: impl Fn(f64) -> f64,
+    pace: SpeedBounds,
+    mut near: FreePlace,
+    mut contact: f64,
+) -> Option<(FreePlace, f64)> {
     // a little less than the bracket, so that its two ends fit in it
     let fine = 0.45 * BRACKET / pace.speed;
     for _ in 0..TRIES {
@@ -135,7 +140,7 @@ fn approach(gap_at: impl Fn(f64) -> f64, pace: SpeedBounds, mut near: Near, mut 
             continue;
         }
         let closing = (near.gap - gap) / (s - near.s);
-        near = Near { s, gap, closing: if closing > 1e-3 * pace.speed { closing } else { pace.speed } };
+        near = FreePlace { s, gap, closing: if closing > 1e-3 * pace.speed { closing } else { pace.speed } };
     }
     None
 }
@@ -157,7 +162,7 @@ mod tests {
                 asked.set(asked.get() + 1);
                 greater(gap(s), 0.0)
             };
-            let start = Near { s: 0.0, gap: gap(0.0), closing: pace.speed };
+            let start = FreePlace { s: 0.0, gap: gap(0.0), closing: pace.speed };
             let (near, contact) = approach(gap_at, pace, start, 1.0).unwrap();
             assert!(near.s < 0.7 && 0.7 <= contact && near.gap == gap(near.s), "{i}: {} {contact}", near.s);
             assert!((contact - near.s) * pace.speed <= BRACKET && asked.get() <= 24, "{i}: {} questions", asked.get());

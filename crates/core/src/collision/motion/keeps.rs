@@ -16,7 +16,7 @@ pub fn is_free_among<M: Motion>(collision: &dyn Collision, motion: &M) -> bool {
 
 /// A motion that does not keep its margin everywhere.
 #[derive(Clone, Copy, Debug)]
-pub struct Blocked {
+pub struct UnkeptMargin {
     /// The clearance at the start, metres; 0 in contact.
     pub start: f64,
     /// The parameter up to which the motion is proven to keep its margin.
@@ -30,7 +30,7 @@ pub fn keeps<M: Motion>(
     motion: &M,
     enough: f64,
     margin: impl FnOnce(f64) -> f64,
-) -> Result<(), Blocked> {
+) -> Result<(), UnkeptMargin> {
     let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
     if is_separated(collision, motion, enough, Ends { start: &start, end: &end }) {
         return Ok(());
@@ -41,7 +41,7 @@ pub fn keeps<M: Motion>(
     }
     let clearance = collision.distance(&start);
     if clearance <= 0.0 {
-        return Err(Blocked { start: 0.0, until: 0.0 });
+        return Err(UnkeptMargin { start: 0.0, until: 0.0 });
     }
     let options = MarchOptions { margin: margin(clearance), ..MarchOptions::default() };
     if all > options.margin {
@@ -50,7 +50,7 @@ pub fn keeps<M: Motion>(
     match march_on(collision, motion, options, None, MotionStart { footprint: start, distance: clearance }) {
         EdgeVerdict::Free { .. } => Ok(()),
         EdgeVerdict::Hit { free_until, .. } | EdgeVerdict::Unresolved { free_until, .. } => {
-            Err(Blocked { start: clearance, until: free_until })
+            Err(UnkeptMargin { start: clearance, until: free_until })
         }
     }
 }

@@ -40,7 +40,8 @@ pub fn dubins(from: &Pose2, to: &Pose2, radius: f64) -> Option<Curve> {
     best.map(|pieces| Curve::of_units(radius, &pieces))
 }
 
-/// The pieces of a word to a goal, in units of the radius.
+/// The closed form of one word, such as [`lsl`]: the pieces that lead from the start to a goal. The goal is in the
+/// start's frame; lengths are in units of the radius. `None` where no curve of this word reaches the goal.
 type Word = fn(&Pose2) -> Option<CurvePieces>;
 
 /// An angle as a turn that is driven ahead, in `[0, 2 pi)`.

@@ -78,7 +78,8 @@ impl WordSymmetry {
     }
 }
 
-/// A goal in units of the radius, as the words' formulas need it.
+/// A goal in the start's frame, with the sine and the cosine of its heading. Lengths are in units of the radius, the
+/// heading `phi` in radians.
 struct UnitGoal {
     x: f64,
     y: f64,

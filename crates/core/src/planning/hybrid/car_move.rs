@@ -5,8 +5,8 @@ use crate::num::lesser;
 use crate::planning::curves::{Curve, Turn};
 use crate::robots::{CHANNEL_UNITS, CarCmd, ConfigurationError, Drivable, Hitch, HitchArc, TICK};
 
-/// A constant control of the car for whole ticks: its two channels as scripts hold them, in [`CHANNEL_UNITS`].
-/// What a chain of moves leads to is what the simulator does with them, bit for bit.
+/// A constant control of the car, held for a whole number of ticks. Its two channels are integers in [`CHANNEL_UNITS`],
+/// as scripts hold them. So the simulator drives a chain of moves to the same configuration, bit for bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CarMove {
     /// The speed channel.

@@ -51,13 +51,13 @@ pub struct GridSearch<R: Robot> {
 }
 
 impl<R: Robot<Configuration: Chart>> GridSearch<R> {
-    /// A* on the usual grid.
+    /// A*, on a grid whose step is a quarter of the sampling planners' ([`SamplingSettings::of`]).
     pub fn a_star(problem: Problem<R>) -> Self {
         let step = SamplingSettings::of(&problem).step / FINER;
         Self::of(problem, step, true)
     }
 
-    /// Dijkstra's algorithm on the usual grid.
+    /// Dijkstra's algorithm, on a grid whose step is a quarter of the sampling planners' ([`SamplingSettings::of`]).
     pub fn dijkstra(problem: Problem<R>) -> Self {
         let step = SamplingSettings::of(&problem).step / FINER;
         Self::of(problem, step, false)

@@ -9,11 +9,12 @@ use crate::geometry::Point2;
 use crate::random::Stream;
 use crate::worlds::{Mark, Resident, Route, RoutePath, World};
 
-/// Width and height of an aisle's route.
+/// Width and height of an aisle's route, metres.
 const LOOP: [f64; 2] = [2.0, 10.4];
-/// From the route of an aisle to that of the next.
+/// Gap between the routes of two neighbouring aisles, metres.
 const LOOPS_APART: f64 = 0.6;
-/// From an aisle's route to its racks, and the radius of its corners. The middle of a corner's arc is a rack's corner.
+/// Gap between an aisle's route and its racks, and the radius of its corners, metres. The middle of a corner's arc is a
+/// rack's corner.
 const TO_RACK: f64 = 0.4;
 /// Racks in a row, and the gap between two.
 const RACKS: usize = 4;

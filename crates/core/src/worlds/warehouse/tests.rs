@@ -1,4 +1,4 @@
-//! What a generated warehouse is; `tests/warehouse.rs` runs one.
+//! What a generated warehouse is; `crates/sim/tests/runs/warehouse.rs` runs one.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;

@@ -49,8 +49,9 @@ impl Editor {
         Editor { file, history: vec![world], now: 0, saved: None, comments: 0, kinds }
     }
 
-    /// The same editor that knows these kinds of robots too. It moves robots of a program's own kinds whose first two
-    /// coordinates are a place, and warns of the starts of those that have footprints.
+    /// The editor with these kinds of robots in place of those that it knew. It can then move robots of a program's own
+    /// kinds whose first two coordinates are a position. Of kinds with footprints, [`warnings`](Self::warnings) also
+    /// names the robots that start in contact or where a run would not start.
     #[must_use]
     pub fn knowing(self, kinds: Kinds) -> Self {
         Editor { kinds, ..self }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::standing::Standing;
+use super::standing::StandingScenes;
 use crate::run::{Frame, RobotInput, RobotState, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::collision::Collision;
@@ -64,7 +64,7 @@ impl PathPosition {
 pub(super) struct Gauge<'a> {
     script: &'a Script,
     kinds: &'a Kinds,
-    standing: Standing,
+    standing: StandingScenes,
     robots: Vec<GaugedRobot>,
     /// Whether clearances are measured, which takes most of the time.
     measures_clearance: bool,
@@ -82,7 +82,7 @@ impl<'a> Gauge<'a> {
             refusals: 0,
         });
         let robots = robots.collect();
-        Gauge { script, kinds, standing: Standing::new(config, script), robots, measures_clearance }
+        Gauge { script, kinds, standing: StandingScenes::new(config, script), robots, measures_clearance }
     }
 
     /// Measures the robots at the next frame, in the order of their ids.

@@ -1,4 +1,4 @@
-//! `Standing`, the worlds of a run as they stand at its frames, for what has no simulator.
+//! `StandingScenes`, the worlds of a run as they stand at its frames, for what has no simulator.
 
 use crate::run::{Frame, ObstacleState, Script};
 use crate::tour::TourConfig;
@@ -7,7 +7,7 @@ use motion_lab_core::geometry::Pose2;
 use motion_lab_core::worlds::{Obstacle, World};
 
 /// The scenes of a run's worlds, at the last frame that it has seen.
-pub(super) struct Standing {
+pub(super) struct StandingScenes {
     worlds: Vec<World>,
     /// The obstacles that the script adds to each world, in its order.
     added: Vec<Vec<Obstacle>>,
@@ -16,7 +16,7 @@ pub(super) struct Standing {
     scenes: Vec<Scene>,
 }
 
-impl Standing {
+impl StandingScenes {
     /// The worlds at the start of a run.
     pub(super) fn new(config: &TourConfig, script: &Script) -> Self {
         let worlds = config.worlds.clone();
@@ -26,7 +26,7 @@ impl Standing {
         };
         let added = worlds.iter().map(added).collect();
         let scenes = worlds.iter().map(Scene::of_world).collect();
-        Standing { worlds, added, states: Vec::new(), scenes }
+        StandingScenes { worlds, added, states: Vec::new(), scenes }
     }
 
     /// Goes on to a frame.

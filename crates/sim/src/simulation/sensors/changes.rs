@@ -16,7 +16,9 @@ pub fn changed(on: On<Insert, SensorParts>, world: DeferredWorld) {
     note(world, on.entity);
 }
 
-/// A part of a sensor was removed or replaced, or the sensor despawned.
+/// Observes that a part of a sensor was removed or replaced, or that the sensor despawned. Before a run's first tick,
+/// the sensors are then read anew. In a run the change is refused with a
+/// [`SensorRefused`].
 pub fn removed(on: On<Discard, SensorParts>, world: DeferredWorld) {
     note(world, on.entity);
 }

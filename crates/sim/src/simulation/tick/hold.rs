@@ -1,6 +1,6 @@
 //! Holding: how far a tick's motion may go before it would touch something.
 
-use motion_lab_core::collision::{Blocked, Collision, keeps};
+use motion_lab_core::collision::{Collision, UnkeptMargin, keeps};
 use motion_lab_core::num::{greater, lesser};
 use motion_lab_core::robots::{Beginning, Motion};
 
@@ -59,7 +59,7 @@ pub fn advance(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
 
 /// As [`advance`], for a motion within its robot's own limits.
 fn advance_within(surroundings: &dyn Collision, motion: &impl Motion) -> Advance {
-    let Err(Blocked { start, until }) = keeps(surroundings, motion, MARGIN + 2.0 * WEAR, margin_from) else {
+    let Err(UnkeptMargin { start, until }) = keeps(surroundings, motion, MARGIN + 2.0 * WEAR, margin_from) else {
         return Advance { until: 1.0, blocked: false };
     };
     let clearance_at = |s: f64| surroundings.distance(&motion.footprint_at(s));

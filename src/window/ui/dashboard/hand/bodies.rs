@@ -25,10 +25,11 @@ pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRob
     near.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, robot)| robot)
 }
 
-/// Lets the robots on wheels of a cockpit be dragged; one that would overlap something stays, and what is in its way is
-/// marked as a contact is, also where the drag is of its point or its heading. A place to come with the next tick is
-/// shown, and the robot is taken there or where it still is. A door beside a body is clicked through. Returns the robot
-/// that the pointer is pressed on, and whether it was clicked.
+/// Lets the pointer drag a cockpit's robots on wheels, and shows where each will be put by the next tick. While such a
+/// place waits, it can be dragged as well as the body. A robot that would overlap or touch something stays where it is,
+/// and what is in its way is drawn as in contact. The same is drawn for a refused drag of the robot's point or heading.
+/// A click on a door beside a body opens or closes the door. Returns the robot that the pointer is pressed on, and
+/// whether it was clicked.
 pub fn bodies<'a>(
     ui: &mut Ui,
     cockpit: &'a Cockpit,

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{InputState, Key, Popup, Ui};
 
-use crate::window::ui::keys::{Push, pushed};
+use crate::window::ui::keys::{DriveDirection, pushed};
 use crate::window::ui::{Command, Dashboard, Notice, UiState};
 use motion_lab_sim::run::RobotInput;
 use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
@@ -17,10 +17,10 @@ const FINE: i16 = FULL / 4;
 fn channels(input: &InputState) -> (i16, i16) {
     let value = if input.modifiers.shift { FINE } else { FULL };
     pushed(input).fold((0, 0), |(ahead, left), push| match push {
-        Push::Forward => (ahead + value, left),
-        Push::Backward => (ahead - value, left),
-        Push::Left => (ahead, left + value),
-        Push::Right => (ahead, left - value),
+        DriveDirection::Forward => (ahead + value, left),
+        DriveDirection::Backward => (ahead - value, left),
+        DriveDirection::Left => (ahead, left + value),
+        DriveDirection::Right => (ahead, left - value),
     })
 }
 
