@@ -24,7 +24,8 @@ fn kept<T>(make: impl FnOnce() -> T) -> f64 {
     info.bytes_current as f64
 }
 
-/// A run of so many robots, in whose warehouse every fifth has no range sensor; after a few ticks, without keyframes.
+/// A run of this number of robots after a few ticks, without keyframes. In its warehouse every fifth robot has no range
+/// sensor.
 fn crowd(robots: usize) -> Recorder {
     let world = Warehouse { seed: Seed(1), robots, trailers: false }.world().expect("a number in range");
     let sensor = Some(RangeSensor { n_rays: 360, max_range: 4.0 });

@@ -20,7 +20,7 @@ use crate::row::{Mark, Row};
 
 const SENSOR: RangeSensor = RangeSensor { n_rays: 360, max_range: 4.0 };
 
-/// A warehouse of so many robots: of ten, eight rovers with a sensor, an arm and a car.
+/// A warehouse of this number of robots: of ten, eight rovers with a sensor, an arm and a car.
 pub fn warehouse(robots: usize) -> World {
     Warehouse { seed: Seed(1), robots, trailers: false }.world().expect("a number in range")
 }
@@ -55,7 +55,7 @@ impl Crowd {
     }
 }
 
-/// Does some work on so many threads.
+/// Does some work on this number of threads.
 fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads").install(work)
 }

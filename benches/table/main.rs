@@ -47,7 +47,7 @@ impl Table {
         self.race_per(1.0, works, entrants);
     }
 
-    /// The same where a case is so many parts, and the times are those of one.
+    /// The same where a case has this number of parts, and the times are those of one part.
     pub fn race_per<'a>(
         &mut self,
         parts: f64,

@@ -86,7 +86,7 @@ pub fn rows(table: &mut Table) {
     ] {
         if table.wants(work) {
             let [arc, edge, driven] = &arcs(car)[..] else { return };
-            // an arc counts as so many straight edges to its end
+            // an arc counts as the straight edges to its end
             table.push(Row::new(work.into(), Mark::at_most(most, " edges"), arc, std::slice::from_ref(edge)));
             table.push(Row::note(format!("{work}: driving alone"), row::time(driven.median)));
         }

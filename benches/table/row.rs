@@ -16,7 +16,7 @@ impl Mark {
     /// How many times faster than the fastest peer, without a mark.
     pub const FASTER: Mark = Mark { is_cost: false, bound: None, unit: "x" };
 
-    /// At least so many times faster than the fastest peer.
+    /// At least this many times faster than the fastest peer.
     pub const fn faster_by(bound: f64) -> Self {
         Mark { bound: Some(bound), ..Mark::FASTER }
     }

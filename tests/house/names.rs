@@ -7,12 +7,12 @@ use super::sources::{Source, sources};
 
 /// Largest number of names that several types share. The few that do are one thing seen twice, such as a door of a
 /// world file and the component that a door of a run has.
-const SHARED: usize = 10;
+const SHARED: usize = 5;
 
 /// Words that no item is called by: what they stand for has a noun of its own.
 const WORN: [&str; 8] = ["told", "hush", "deed", "aside", "kept", "most", "slack", "leap"];
 
-/// The kind and the name of the item that begins on a line, with its depth; `None` for any other line.
+/// The kind and the name of the item that begins on a line; `None` for any other line.
 fn item(line: &str) -> Option<(&str, &str)> {
     let mut code = line.trim_start();
     if let Some(rest) = code.strip_prefix("pub") {

@@ -193,14 +193,14 @@ fn atlas(atlas: &AtlasState) -> Value {
     })
 }
 
-/// The lesson under way and what came of it; nothing to be told before there was one.
+/// The lesson under way and what came of it; nothing before there was one.
 fn lesson(world: &World) -> Value {
     let under_way = world.resource::<Interface>().0.lesson.as_ref();
-    let told = |under_way: &LessonState| {
+    let described = |under_way: &LessonState| {
         let LessonState { lesson, took, .. } = under_way;
         json!({ "kind": "lesson", "id": lesson.id(), "done": took.is_some(), "seconds": took })
     };
-    under_way.map_or_else(|| json!({ "kind": "lesson", "id": null }), told)
+    under_way.map_or_else(|| json!({ "kind": "lesson", "id": null }), described)
 }
 
 /// The widgets of the canvas; `None` where egui has nothing new of them.

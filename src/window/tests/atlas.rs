@@ -92,7 +92,7 @@ fn a_drag_turns_the_robot_and_the_offer_is_taken_by_a_click() {
     let mut harness = lab(WIDE);
     click(&mut harness, "Atlas");
     let q = |h: &Harness<'_, Lab>| atlas(h).atlas().robots()[0].q.coordinates();
-    let is_ticked = |h: &Harness<'_, Lab>| interface(h).settings.done.iter().any(|deed| deed == "Put");
+    let is_ticked = |h: &Harness<'_, Lab>| interface(h).settings.done.iter().any(|task| task == "Put");
     let on_table = at(&harness, [6.0, 6.75]);
     click_at(&mut harness, on_table);
     assert!(!is_ticked(&harness), "refused");

@@ -71,7 +71,7 @@ fn far_off_the_edge_the_point_goes_on_from_the_other_one() {
     let mut harness = lab(WIDE);
     click(&mut harness, "Space");
     harness.run_steps(3);
-    let is_ticked = |h: &Harness<'_, Lab>| interface(h).settings.done.iter().any(|deed| deed == "OverEdge");
+    let is_ticked = |h: &Harness<'_, Lab>| interface(h).settings.done.iter().any(|task| task == "OverEdge");
     let (from, to) = (at(&harness, [-2.6, 0.4]), at(&harness, [-4.5, 0.4]));
     pointer(&mut harness, from, Some(true));
     pointer(&mut harness, from.lerp(to, 0.2), None);

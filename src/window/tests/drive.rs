@@ -336,7 +336,7 @@ fn a_car_turned_about_is_a_ghost_that_no_input_leads_to() {
     // 1.5 m from the west curb there is no room for it, the other way about
     put(&mut harness, 1.5);
     harness.get_by_label_contains("there it overlaps the west curb; no single input leads there");
-    assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoHeadings"));
+    assert!(interface(&harness).settings.done.iter().any(|task| task == "TwoHeadings"));
     click(&mut harness, "One place, two headings");
     assert!(harness.query_by_label_contains("no single input leads there").is_none());
     assert_eq!(harness.state().script().events.len(), events + 2, "it is no input");

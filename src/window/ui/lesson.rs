@@ -24,7 +24,7 @@ impl UiState {
 pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(under_way) = state.lesson.as_mut().filter(|under_way| !under_way.is_ready) else { return };
     under_way.is_ready = true;
-    let Lesson { deed, widget } = under_way.lesson;
+    let Lesson { task, widget } = under_way.lesson;
     state.fills = false;
     drive::let_go(state, commands);
     if widget != Widget::Dashboard && model.playing {
@@ -34,19 +34,19 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
     match widget {
         Widget::Dashboard => {
             let has = |kind| model.cockpits.iter().position(|c| c.robots.iter().any(|robot| robot.kind == kind));
-            if let Some(world) = kind_of(deed).and_then(has) {
+            if let Some(world) = kind_of(task).and_then(has) {
                 state.settings.world = world as u32;
             }
             // there has to be something to drag back over
-            if deed == HintTask::DriveOn && model.frontier < MIN_PAST && !model.playing {
+            if task == HintTask::DriveOn && model.frontier < MIN_PAST && !model.playing {
                 commands.push(Command::from(TransportCommand::Play));
-            } else if deed == HintTask::DriveOn && model.tick < MIN_PAST {
+            } else if task == HintTask::DriveOn && model.tick < MIN_PAST {
                 commands.push(Command::from(TransportCommand::Seek(model.frontier)));
             }
         }
         Widget::Anatomy => {
             state.anatomy = super::AnatomyState::default();
-            state.anatomy.anatomy.tab = tab_of(deed);
+            state.anatomy.anatomy.tab = tab_of(task);
         }
         Widget::Cspace => {
             state.anatomy = super::AnatomyState::default();
@@ -58,15 +58,15 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
             }
             state.atlas.set_resolution(FIRST_CELL);
             state.atlas.selected = None;
-            state.atlas.mode = mode_of(deed);
+            state.atlas.mode = mode_of(task);
         }
         Widget::Plan => state.plan = PlanState::default(),
     }
 }
 
 /// The kind of the robot that a lesson of the dashboard is about.
-fn kind_of(deed: HintTask) -> Option<&'static str> {
-    match deed {
+fn kind_of(task: HintTask) -> Option<&'static str> {
+    match task {
         HintTask::TwoElbows | HintTask::MoveArm => Some(RobotKind::REACH.name),
         HintTask::TwoHeadings => Some(RobotKind::HITCH.name),
         HintTask::Drive | HintTask::DriveOn | HintTask::Held => Some(RobotKind::RUSTY.name),
@@ -75,8 +75,8 @@ fn kind_of(deed: HintTask) -> Option<&'static str> {
 }
 
 /// The question of Query that a lesson is about.
-fn tab_of(deed: HintTask) -> Tab {
-    match deed {
+fn tab_of(task: HintTask) -> Tab {
+    match task {
         HintTask::Near => Tab::Witness,
         HintTask::Hit | HintTask::FreeEnds => Tab::Swept,
         _ => Tab::Distance,
@@ -84,8 +84,8 @@ fn tab_of(deed: HintTask) -> Tab {
 }
 
 /// What a click does in the atlas of a lesson.
-fn mode_of(deed: HintTask) -> Mode {
-    match deed {
+fn mode_of(task: HintTask) -> Mode {
+    match task {
         HintTask::Coarsen => Mode::Measure,
         HintTask::PickWall | HintTask::EditWorld => Mode::Edit,
         _ => Mode::Put,

@@ -26,7 +26,7 @@ impl LessonState {
     /// Takes in what was done in a frame, by `now` in seconds.
     pub fn see(&mut self, done: &[HintTask], now: f64) {
         let began = *self.began.get_or_insert(now);
-        let is_done = done.contains(&self.lesson.deed);
+        let is_done = done.contains(&self.lesson.task);
         if is_done && !self.was_done && self.took.is_none() {
             self.took = Some(now - began);
         }

@@ -56,14 +56,14 @@ impl Settings {
     }
 
     /// Whether the reader has done this.
-    pub fn is_ticked_off(&self, deed: HintTask) -> bool {
-        self.done.contains(&deed.id())
+    pub fn is_ticked_off(&self, task: HintTask) -> bool {
+        self.done.contains(&task.id())
     }
 
     /// Keeps that the reader has done this.
-    pub fn tick_off(&mut self, deed: HintTask) {
-        if !self.is_ticked_off(deed) {
-            self.done.push(deed.id());
+    pub fn tick_off(&mut self, task: HintTask) {
+        if !self.is_ticked_off(task) {
+            self.done.push(task.id());
         }
     }
 }

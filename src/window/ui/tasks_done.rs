@@ -32,14 +32,14 @@ pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], no
     let mut done = std::mem::take(&mut state.did);
     done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent, has_lost_wall)));
     done.extend(shown(model, state));
-    done.append(&mut state.plan.deeds);
+    done.append(&mut state.plan.tasks_done);
     if let Some(lesson) = &mut state.lesson {
         lesson.see(&done, now);
     }
-    done.into_iter().for_each(|deed| state.settings.tick_off(deed));
+    done.into_iter().for_each(|task| state.settings.tick_off(task));
 }
 
-/// The deeds that a command is; an arm may be moved `by_itself`, on its way to its other elbow, and the atlas's world
+/// The tasks that a command is; an arm may be moved `by_itself`, on its way to its other elbow, and the atlas's world
 /// may have lost a wall.
 fn asked(command: &Command, model: &Dashboard, by_itself: bool, has_lost_wall: bool) -> Vec<HintTask> {
     match command {
@@ -59,13 +59,13 @@ fn asked(command: &Command, model: &Dashboard, by_itself: bool, has_lost_wall: b
     }
 }
 
-/// The deeds that the widget in front shows.
+/// The tasks that the widget in front shows.
 fn shown(model: &Dashboard, state: &UiState) -> Vec<HintTask> {
-    let is_asked = |deed| state.lesson.as_ref().is_some_and(|under_way| under_way.lesson.deed == deed);
-    let is_open = |deed| !state.settings.is_ticked_off(deed) || is_asked(deed);
+    let is_asked = |task| state.lesson.as_ref().is_some_and(|under_way| under_way.lesson.task == task);
+    let is_open = |task| !state.settings.is_ticked_off(task) || is_asked(task);
     let anatomy = &state.anatomy.anatomy;
-    let of = |deeds: &[(HintTask, &dyn Fn() -> bool)]| {
-        deeds.iter().filter(|(deed, is_done)| is_open(*deed) && is_done()).map(|(deed, _)| *deed).collect()
+    let of = |tasks: &[(HintTask, &dyn Fn() -> bool)]| {
+        tasks.iter().filter(|(task, is_done)| is_open(*task) && is_done()).map(|(task, _)| *task).collect()
     };
     match state.widget {
         Widget::Cspace => of(&[(HintTask::TwoPoints, &|| have_one_tip(anatomy, &state.cspace.trace))]),
@@ -83,7 +83,7 @@ fn shown(model: &Dashboard, state: &UiState) -> Vec<HintTask> {
 }
 
 /// What the reader has done between two moments of the query anatomy, a press and its release or a frame and the next:
-/// the robot was moved until it touches, the motion changed until it hits. Another world, robot or tab is no deed.
+/// the robot was moved until it touches, the motion changed until it hits. Another world, robot or tab is no task.
 pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<HintTask> {
     let is_same = Arc::ptr_eq(before.world(), now.world()) && before.checker().robot() == now.checker().robot();
     let hits = || now.sweep().is_ok_and(|sweep| matches!(sweep.verdict, EdgeVerdict::Hit { .. }));
@@ -98,7 +98,7 @@ pub fn of_anatomy(before: &Anatomy, now: &Anatomy) -> Vec<HintTask> {
     let free_ends = is_swept && (is_stepped || is_moved) && hits() && has_free_ends();
     let done =
         [(touch, HintTask::Touch), (near, HintTask::Near), (hit, HintTask::Hit), (free_ends, HintTask::FreeEnds)];
-    done.into_iter().filter(|(is_done, _)| *is_done).map(|(_, deed)| deed).collect()
+    done.into_iter().filter(|(is_done, _)| *is_done).map(|(_, task)| task).collect()
 }
 
 /// Whether the last point of a trace has the tip of an earlier one that is another point of the torus.
@@ -133,7 +133,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_asked_for_is_a_deed_and_nothing_else_is() {
+    fn what_was_asked_for_is_a_task_done_and_nothing_else_is() {
         let (seed, cockpits) = (motion_lab_core::random::Seed(1), Vec::new());
         let (behind, next_contact) = (None, None);
         let [playing, looping, can_undo, can_redo] = [false; 4];
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn a_deed_is_the_readers_and_not_a_scenes() {
+    fn a_task_is_done_by_the_reader_and_not_by_a_scene() {
         // the chapter's motion hits the block, and its arm touches it where the elbow is bent less
         let start = Anatomy::default();
         let swept = start.clone().with_tab(Tab::Swept);

@@ -55,20 +55,20 @@ struct FormulaText {
 
 static FORMULAS: LazyLock<Vec<ChapterFormula>> = LazyLock::new(|| {
     let written: Vec<FormulaText> = ron::from_str(include_str!("../../assets/formulas.ron")).unwrap_or_default();
-    let told = |FormulaText { at, formula, spoken, code }| ChapterFormula {
+    let entry = |FormulaText { at, formula, spoken, code }| ChapterFormula {
         at,
         formula: Formula::parse(formula),
         spoken,
         code,
     };
-    written.into_iter().map(told).collect()
+    written.into_iter().map(entry).collect()
 });
 
 impl ChapterFormula {
     /// The formulas of this name, in order: of a tab of the query anatomy, of a kind of robot as in `hitch.4`, with the
     /// number of its coordinates, or of the `annulus`. None for any other name.
     pub fn of(name: &str) -> impl Iterator<Item = &'static ChapterFormula> {
-        FORMULAS.iter().filter(move |told| told.at.iter().any(|at| at == name))
+        FORMULAS.iter().filter(move |entry| entry.at.iter().any(|at| at == name))
     }
 
     /// All formulas.
@@ -229,12 +229,12 @@ mod tests {
         for place in &places {
             assert!(ChapterFormula::of(place).next().is_some(), "nothing is said of {place}");
         }
-        for (told, FormulaText { formula, .. }) in ChapterFormula::all().iter().zip(&parsed) {
-            assert!(told.at().iter().all(|at| places.contains(at)) && told.spoken.ends_with('.'), "{:?}", told.at());
+        for (entry, FormulaText { formula, .. }) in ChapterFormula::all().iter().zip(&parsed) {
+            assert!(entry.at().iter().all(|at| places.contains(at)) && entry.spoken.ends_with('.'), "{:?}", entry.at());
             // every role is one: as many terms with a role as braces, or more by their scripts
-            let roles = told.formula.0.iter().filter(|term| term.role.is_some()).count();
+            let roles = entry.formula.0.iter().filter(|term| term.role.is_some()).count();
             assert!(roles > 0 && roles >= formula.matches('{').count(), "{formula}");
-            assert!(told.formula.0.iter().all(|term| !term.text.contains(['{', '}', '_', '^', ':'])), "{formula}");
+            assert!(entry.formula.0.iter().all(|term| !term.text.contains(['{', '}', '_', '^', ':'])), "{formula}");
         }
         assert_eq!(ChapterFormula::of("hitch.4").count(), 2);
         assert!(ChapterFormula::of("a cat").next().is_none());
@@ -284,9 +284,9 @@ mod tests {
         for (code, function) in functions {
             let (of, name) = code.split_once("::").unwrap();
             assert!(function.contains(of) && function.ends_with(&format!("::{name}")), "{code} is {function}");
-            assert!(ChapterFormula::all().iter().any(|told| told.code == code), "{code} computes no formula");
+            assert!(ChapterFormula::all().iter().any(|entry| entry.code == code), "{code} computes no formula");
         }
-        assert!(ChapterFormula::all().iter().all(|told| functions.iter().any(|(code, _)| *code == told.code)));
+        assert!(ChapterFormula::all().iter().all(|entry| functions.iter().any(|(code, _)| *code == entry.code)));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use super::{Hint, HintTask, Widget};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lesson {
     /// What it asks for.
-    pub deed: HintTask,
+    pub task: HintTask,
     /// The widget that it is about.
     pub widget: Widget,
 }
@@ -14,7 +14,7 @@ pub struct Lesson {
 impl Lesson {
     /// All lessons, widget by widget: each hint is one.
     pub fn all() -> impl Iterator<Item = Lesson> {
-        let of = |widget: Widget| widget.text().hints.iter().map(move |hint| Lesson { deed: hint.task, widget });
+        let of = |widget: Widget| widget.text().hints.iter().map(move |hint| Lesson { task: hint.task, widget });
         Widget::ALL.into_iter().flat_map(of)
     }
 
@@ -26,7 +26,7 @@ impl Lesson {
     /// Its id in links and messages, such as `two_elbows`.
     pub fn id(self) -> String {
         let mut id = String::new();
-        for letter in self.deed.id().chars() {
+        for letter in self.task.id().chars() {
             if letter.is_ascii_uppercase() && !id.is_empty() {
                 id.push('_');
             }
@@ -37,7 +37,7 @@ impl Lesson {
 
     /// Its words.
     pub fn text(self) -> &'static str {
-        let hint: Option<&Hint> = self.widget.text().hints.iter().find(|hint| hint.task == self.deed);
+        let hint: Option<&Hint> = self.widget.text().hints.iter().find(|hint| hint.task == self.task);
         hint.map_or("", |hint| &hint.text)
     }
 }
@@ -49,7 +49,7 @@ mod tests {
     #[test]
     fn each_hint_is_a_lesson_with_an_id_of_its_own() {
         let ids: Vec<String> = Lesson::all().map(Lesson::id).collect();
-        for (id, deed, widget) in [
+        for (id, task, widget) in [
             ("two_elbows", HintTask::TwoElbows, Widget::Dashboard),
             ("near", HintTask::Near, Widget::Anatomy),
             ("free_ends", HintTask::FreeEnds, Widget::Anatomy),
@@ -57,7 +57,7 @@ mod tests {
             ("pick_wall", HintTask::PickWall, Widget::Atlas),
             ("find_path", HintTask::FindPath, Widget::Plan),
         ] {
-            assert_eq!(Lesson::of(id), Some(Lesson { deed, widget }));
+            assert_eq!(Lesson::of(id), Some(Lesson { task, widget }));
             assert_eq!(ids.iter().filter(|other| *other == id).count(), 1, "{id}");
         }
         assert_eq!((Lesson::of("TwoElbows"), Lesson::of("")), (None, None));

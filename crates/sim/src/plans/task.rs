@@ -217,12 +217,6 @@ mod tests {
             let mut before = 0;
             while attempt.step() == Progress::Growing {
                 let now = refused(attempt.as_ref());
-                // all of the growth is drawn: not at every iteration of many
-                let iterations = attempt.effort().iterations;
-                if iterations > 50 && iterations % 50 != 0 {
-                    before = now;
-                    continue;
-                }
                 let drawn = attempt.drawn();
                 assert!(now > before || drawn.rejected.is_none(), "{}: an old one is shown again", task.name);
                 before = now;

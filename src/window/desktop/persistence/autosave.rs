@@ -70,7 +70,7 @@ pub struct Autosave {
     /// The run that was left and is offered, and its file.
     offered: Option<(PathBuf, SavedRun)>,
     /// The run on its way back.
-    coming: Option<SavedRun>,
+    pending: Option<SavedRun>,
     /// The file of the run that was brought back, until that run is written anew.
     came_from: Option<PathBuf>,
     has_failed: bool,
@@ -221,7 +221,7 @@ impl Autosave {
     /// Takes this window's file away, and the one that the present run came from.
     fn keep_nothing(&mut self) {
         self.written = None;
-        if self.coming.is_some() {
+        if self.pending.is_some() {
             return;
         }
         if let Some(slot) = &self.slot {
@@ -302,7 +302,7 @@ fn answer(world: &mut World) {
         Ok(()) => world.resource_mut::<Autosave>().came_from = Some(path),
         Err(error) => {
             let text = format!("the run of before can't be brought back: {error}; it stays in {}", path.display());
-            world.resource_mut::<Autosave>().coming = None;
+            world.resource_mut::<Autosave>().pending = None;
             world.resource_mut::<Interface>().0.say_in(Widget::Dashboard, Notice { text, is_error: true });
         }
     }
@@ -315,7 +315,7 @@ fn bring_back(world: &mut World, run: SavedRun) -> Result<(), SessionError> {
     let Transport { speed, .. } = *world.resource::<Transport>();
     start_recipe(world, run.recipe.clone())?;
     let (tick, frontier) = (run.tick, run.frontier);
-    world.resource_mut::<Autosave>().coming = Some(run);
+    world.resource_mut::<Autosave>().pending = Some(run);
     world.resource_mut::<Interface>().0.widget = Widget::Dashboard;
     let mut transport = world.resource_mut::<Transport>();
     (transport.playback, transport.speed) = (Playback::Paused, speed);
@@ -334,10 +334,10 @@ fn bring_back(world: &mut World, run: SavedRun) -> Result<(), SessionError> {
 
 /// Says whether the run that was brought back stands as it stood, to the last bit, once it has come there.
 fn arrive(world: &mut World) {
-    if world.resource::<Autosave>().coming.is_none() || world.resource::<Background>().is_under_way() {
+    if world.resource::<Autosave>().pending.is_none() || world.resource::<Background>().is_under_way() {
         return;
     }
-    let Some(run) = world.resource_mut::<Autosave>().coming.take() else { return };
+    let Some(run) = world.resource_mut::<Autosave>().pending.take() else { return };
     let frame = &world.resource::<LatestFrame>().0;
     // somebody stopped it on its way, or went elsewhere
     if frame.tick != run.tick {

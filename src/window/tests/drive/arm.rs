@@ -164,7 +164,7 @@ fn the_arm_goes_to_its_other_elbow_where_the_way_is_free() {
     put(&mut harness, [-0.5, 0.3]);
     let (before, events) = (harness.state().robot(1), moves(&harness).len());
     click(&mut harness, "One tip, two elbows");
-    assert!(!interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"), "it is on its way");
+    assert!(!interface(&harness).settings.done.iter().any(|task| task == "TwoElbows"), "it is on its way");
     harness.run_steps(40);
     let after = harness.state().robot(1);
     assert!((after.coordinates[0] + 0.2).abs() < 1e-4 && (after.coordinates[1] + 0.3).abs() < 1e-4, "{after:?}");
@@ -174,8 +174,8 @@ fn the_arm_goes_to_its_other_elbow_where_the_way_is_free() {
     let ticks = moves(&harness).split_off(events);
     assert!((6..=7).contains(&ticks.len()), "{ticks:?}");
     assert!(ticks.windows(2).all(|pair| pair[1] == pair[0] + 1), "{ticks:?}");
-    assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"));
-    assert!(!interface(&harness).settings.done.iter().any(|deed| deed == "MoveArm"), "nobody dragged it");
+    assert!(interface(&harness).settings.done.iter().any(|task| task == "TwoElbows"));
+    assert!(!interface(&harness).settings.done.iter().any(|task| task == "MoveArm"), "nobody dragged it");
     assert_eq!(harness.state().transport().playback, Playback::Paused, "as it was before");
     click(&mut harness, "Undo");
     assert_eq!(harness.state().robot(1).coordinates, before.coordinates, "one thing to undo");
@@ -224,7 +224,7 @@ fn what_blocks_the_way_to_the_other_elbow_is_named_and_the_arm_stays() {
     harness.get_by_label("the ghost has the same tip: send the arm there");
     click(&mut harness, "One tip, two elbows");
     harness.get_by_label_contains("the straight way hits the post at s = 0.");
-    assert!(interface(&harness).settings.done.iter().any(|deed| deed == "TwoElbows"));
+    assert!(interface(&harness).settings.done.iter().any(|task| task == "TwoElbows"));
     let task = motion_lab_sim::manifest::Lesson::of("two_elbows").unwrap();
     assert!(task.text().contains("or see what blocks it"), "which is the task, too");
     click(&mut harness, "Play");

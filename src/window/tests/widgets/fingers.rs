@@ -205,7 +205,7 @@ fn each_widget_on_a_phone_offers_its_next_task_below_the_picture() {
         harness.get_by_label(&for_fingers(&hints[1].text)).scroll_to_me();
         harness.run_steps(20);
         click(&mut harness, &for_fingers(&hints[1].text));
-        let begun = harness.state().app.world().resource::<Interface>().0.lesson.as_ref().map(|of| of.lesson.deed);
+        let begun = harness.state().app.world().resource::<Interface>().0.lesson.as_ref().map(|of| of.lesson.task);
         assert_eq!(begun, Some(hints[1].task), "{widget:?}");
         ui(&mut harness, |ui| ui.lesson = None);
         harness.run_steps(3);

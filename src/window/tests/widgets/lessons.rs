@@ -84,8 +84,8 @@ impl Reader {
         pos2(x as f32, y as f32)
     }
 
-    fn has_done(&self, deed: &str) -> bool {
-        interface(&self.harness).settings.done.iter().any(|done| done == deed)
+    fn has_done(&self, task: &str) -> bool {
+        interface(&self.harness).settings.done.iter().any(|done| done == task)
     }
 
     /// The clock of the lab, seconds.
@@ -94,7 +94,7 @@ impl Reader {
     }
 }
 
-/// A lesson: its task's deed, the widget it is in, how the reader makes that ready, and what the reader does then.
+/// A lesson: the id of its task, the widget it is in, how the reader makes that ready, and what the reader does then.
 type Lesson = (&'static str, &'static str, fn(&mut Reader), fn(&mut Reader));
 
 fn open_the_editor(reader: &mut Reader) {
@@ -239,19 +239,19 @@ fn the_lesson_of_the_time_line_begins_with_something_to_drag_back_over() {
 #[test]
 fn each_lesson_is_done_within_half_a_minute_and_a_few_clicks() {
     println!("| lesson | widget | clicks, drags and entries | seconds |\n|---|---|---|---|");
-    for (deed, widget, make_ready, act) in LESSONS {
+    for (task, widget, make_ready, act) in LESSONS {
         let mut reader = Reader::new();
         let start = reader.now();
-        assert!(!reader.has_done(deed));
+        assert!(!reader.has_done(task));
         make_ready(&mut reader);
         act(&mut reader);
-        while !reader.has_done(deed) {
+        while !reader.has_done(task) {
             reader.harness.step();
             let late = reader.now() - start > LONGEST;
-            assert!(!late, "{deed}: {:?} after {} actions", interface(&reader.harness).settings.done, reader.actions);
+            assert!(!late, "{task}: {:?} after {} actions", interface(&reader.harness).settings.done, reader.actions);
         }
-        println!("| {deed} | {widget} | {} | {:.1} |", reader.actions, reader.now() - start);
-        assert!(reader.actions <= 5, "{deed}");
+        println!("| {task} | {widget} | {} | {:.1} |", reader.actions, reader.now() - start);
+        assert!(reader.actions <= 5, "{task}");
     }
 }
 
@@ -262,8 +262,8 @@ fn every_lesson_has_a_hint() {
         .flat_map(|widget| &widget.text().hints)
         .map(|h| h.task.id())
         .collect();
-    for (deed, ..) in LESSONS {
-        assert!(hints.iter().any(|hint| hint == deed), "{deed}");
+    for (task, ..) in LESSONS {
+        assert!(hints.iter().any(|hint| hint == task), "{task}");
     }
 }
 
@@ -278,29 +278,29 @@ fn under_way(harness: &Harness<'_, Lab>) -> crate::window::ui::LessonState {
 
 #[test]
 fn a_lesson_that_is_begun_by_its_id_needs_nothing_made_ready_and_says_when_it_is_done() {
-    for (deed, ..) in LESSONS {
-        let lesson = motion_lab_sim::manifest::Lesson::all().find(|lesson| lesson.deed.id() == deed).unwrap();
+    for (task, ..) in LESSONS {
+        let lesson = motion_lab_sim::manifest::Lesson::all().find(|lesson| lesson.task.id() == task).unwrap();
         let mut reader = Reader::new();
         // the reader was elsewhere, and has done it before
         reader.click("Plan");
         ui(&mut reader.harness, |ui| {
-            ui.settings.tick_off(lesson.deed);
+            ui.settings.tick_off(lesson.task);
             ui.settings.world = 1;
             ui.begin(lesson);
         });
         reader.harness.run_steps(3);
-        assert_eq!(under_way(&reader.harness).took, None, "{deed}");
+        assert_eq!(under_way(&reader.harness).took, None, "{task}");
         let start = reader.now();
-        LESSONS.iter().find(|known| known.0 == deed).unwrap().3(&mut reader);
+        LESSONS.iter().find(|known| known.0 == task).unwrap().3(&mut reader);
         while under_way(&reader.harness).took.is_none() {
             reader.harness.step();
-            assert!(reader.now() - start < LONGEST, "{deed}: not done after {} actions", reader.actions);
+            assert!(reader.now() - start < LONGEST, "{task}: not done after {} actions", reader.actions);
         }
         reader.harness.run_steps(2);
         let said = format!("Done in {:.0} s:", under_way(&reader.harness).took.unwrap());
-        assert!(reader.harness.query_by_label(&said).is_some(), "{deed}: {said}");
+        assert!(reader.harness.query_by_label(&said).is_some(), "{task}: {said}");
         let removed = &lesson.widget.text().misconception;
-        assert_eq!(reader.harness.query_all_by_label(removed).count(), 1, "{deed}: what it removes, once");
+        assert_eq!(reader.harness.query_all_by_label(removed).count(), 1, "{task}: what it removes, once");
     }
 }
 
@@ -388,5 +388,5 @@ fn a_task_of_the_rover_is_not_done_by_the_car() {
     });
     harness.run_steps(5);
     assert!(is_seen, "it drove into something");
-    assert!(!interface(&harness).settings.done.iter().any(|deed| deed == "Held"));
+    assert!(!interface(&harness).settings.done.iter().any(|task| task == "Held"));
 }

@@ -2,8 +2,8 @@
 
 use super::*;
 
-fn has_done(harness: &Harness<'_, Lab>, deed: &str) -> bool {
-    interface(harness).settings.done.iter().any(|done| done == deed)
+fn has_done(harness: &Harness<'_, Lab>, task: &str) -> bool {
+    interface(harness).settings.done.iter().any(|done| done == task)
 }
 
 /// The lab with the editor of the Apartment in front.
@@ -82,7 +82,7 @@ fn a_drag_through_contact_touches_nothing_and_one_that_ends_there_does() {
 }
 
 #[test]
-fn what_moves_in_another_widget_after_a_press_on_its_button_is_no_deed_of_query() {
+fn what_moves_in_another_widget_after_a_press_on_its_button_is_no_task_of_query() {
     let mut harness = lab(WIDE);
     click(&mut harness, "Query");
     click(&mut harness, "distance");

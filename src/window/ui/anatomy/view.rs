@@ -84,7 +84,7 @@ pub fn anatomy_view(
     });
     let shown = &mut state.anatomy;
     if ui.input(|i| i.pointer.any_down()) {
-        // what a drag only passes through is no deed
+        // what a drag only passes through is no task
         _ = shown.pressed.get_or_insert(before);
     } else {
         let before = shown.pressed.take().unwrap_or(before);

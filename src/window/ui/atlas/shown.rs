@@ -105,8 +105,8 @@ impl AtlasState {
             let about = self.atlas.kinds().of(&robot.kind)?;
             Some(format!("{}: {}", robot.name, printed_as(Some(about), &robot.start)))
         });
-        let told = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others);
-        let mut robots: Vec<String> = told.take(NAMED_OF_CROWD).collect();
+        let lines = lab.iter().map(|r| format!("{}: {}", r.name, r.q)).chain(others);
+        let mut robots: Vec<String> = lines.take(NAMED_OF_CROWD).collect();
         let more = self.world().robots.len() - robots.len();
         if robots.len() == NAMED_OF_CROWD && more > 0 {
             robots.push(format!("and {more} more"));

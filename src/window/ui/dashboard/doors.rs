@@ -53,7 +53,7 @@ pub fn pending_doors(cockpit: &Cockpit) -> Vec<Item> {
     let doors = cockpit.atlas.world().doors.iter().filter(|door| to_come(cockpit, door).is_some());
     let mark = |door: &Door| {
         let gap = Drawing::segment(door.a, door.b);
-        Item::new(format!("coming/{}", door.name), door.name.as_str(), Role::Focus, gap).stroked(Line::solid(3.0))
+        Item::new(format!("pending/{}", door.name), door.name.as_str(), Role::Focus, gap).stroked(Line::solid(3.0))
     };
     doors.map(mark).collect()
 }

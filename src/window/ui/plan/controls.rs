@@ -20,7 +20,7 @@ pub fn act(action: TimeAction, plan: &mut PlanState) {
         TimeAction::PlayPause => play(plan),
         TimeAction::Step => {
             plan.playing = false;
-            plan.deeds.extend(goes_on(plan).then_some(HintTask::StepPlanner));
+            plan.tasks_done.extend(goes_on(plan).then_some(HintTask::StepPlanner));
             plan.step();
         }
         TimeAction::Start | TimeAction::Reset => plan.restart(),

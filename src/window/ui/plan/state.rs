@@ -85,7 +85,7 @@ pub struct PlanState {
     /// Whether the goal was moved since the planner was last at work.
     pub is_moved: bool,
     /// What the reader did that hints ask for, since it was last taken.
-    pub deeds: Vec<HintTask>,
+    pub tasks_done: Vec<HintTask>,
 }
 
 impl Default for PlanState {
@@ -122,7 +122,7 @@ impl PlanState {
             over_drive: false,
             played: None,
             is_moved: false,
-            deeds: Vec::new(),
+            tasks_done: Vec::new(),
             task,
         };
         state.restart();
@@ -275,7 +275,7 @@ impl PlanState {
         if matches!(self.stage, PlanStage::Ended(_)) {
             return self.playing = false;
         }
-        self.deeds.extend(std::mem::take(&mut self.is_moved).then_some(HintTask::MoveGoal));
+        self.tasks_done.extend(std::mem::take(&mut self.is_moved).then_some(HintTask::MoveGoal));
         let effort = work.with(|attempt| attempt.effort());
         let next = if effort.iterations >= self.bound {
             let exhausted = NoPath::Exhausted { bound: Bound::Iterations, effort };

@@ -70,9 +70,9 @@ fn span(galley: &Galley, characters: Range<usize>) -> Rect {
 
 /// Shows the chapter's formulas of this name, each in rows of its own. Pointing at one names the code that computes it.
 pub fn formulas(ui: &mut Ui, name: &str, look: &FrameColours, state: &mut UiState) {
-    for told in ChapterFormula::of(name) {
-        let shown = formula(ui, &told.formula, &told.spoken, look, state);
-        shown.map(|response| response.on_hover_text(RichText::new(told.code).monospace()));
+    for entry in ChapterFormula::of(name) {
+        let shown = formula(ui, &entry.formula, &entry.spoken, look, state);
+        shown.map(|response| response.on_hover_text(RichText::new(entry.code).monospace()));
     }
 }
 

@@ -28,7 +28,7 @@ fn suits(hint: &Hint, state: &UiState) -> bool {
 /// Shows what a new reader may try first in the widget in front, until its hints are put away.
 pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiState) {
     // what ends on the dashboard, such as a world that is run, says there that it is done
-    let leads_on = |under_way: &LessonState| matches!(under_way.lesson.deed, HintTask::EditWorld | HintTask::PlayPath);
+    let leads_on = |under_way: &LessonState| matches!(under_way.lesson.task, HintTask::EditWorld | HintTask::PlayPath);
     let is_here = |under_way: &LessonState| {
         let ended = under_way.took.is_some() && state.widget == Widget::Dashboard && leads_on(under_way);
         under_way.lesson.widget == state.widget || ended
@@ -60,7 +60,7 @@ pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut 
             open += usize::from(!is_done);
             let is_shown = count <= FEW || (if is_done { last == Some(hint) } else { open < FEW });
             if is_shown && task(ui, &hint.text, is_done, look).on_hover_text("Begin this task").clicked() {
-                begun = Some(Lesson { deed: hint.task, widget: state.widget });
+                begun = Some(Lesson { task: hint.task, widget: state.widget });
             }
         }
         if is_put_away {
@@ -105,7 +105,7 @@ pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &
     if let Some(hint) = next
         && task(ui, &hint.text, open == 0, look).on_hover_text("Begin this task").clicked()
     {
-        state.begin(Lesson { deed: hint.task, widget: state.widget });
+        state.begin(Lesson { task: hint.task, widget: state.widget });
     }
     ui.add_space(4.0);
 }
