@@ -67,7 +67,7 @@ fn drive(
 
 /// Writes down where the rover is, every ten seconds of the run.
 fn write_down(frame: Res<LatestFrame>, mut diary: ResMut<Diary>) {
-    let Frame { tick, robots, .. } = &frame.0;
+    let Frame { tick, robots, .. } = frame.frame();
     if let Some(rover) = robots.first().filter(|_| tick.is_multiple_of(200)) {
         let [x, y] = [0, 1].map(|i| rover.configuration[i]);
         diary.lines.push(format!("tick {tick:3}: Rusty at ({x:.3}, {y:.3})"));
@@ -99,7 +99,7 @@ pub fn ran(ticks: u64) -> Result<App, Box<dyn Error>> {
     app.world_mut().resource_mut::<Transport>().playback = Playback::Playing;
     // every update is a tick long, whatever the clock says
     app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
-    while app.world().resource::<LatestFrame>().0.tick < ticks {
+    while app.world().resource::<LatestFrame>().frame().tick < ticks {
         app.update();
     }
     Ok(app)
@@ -108,7 +108,7 @@ pub fn ran(ticks: u64) -> Result<App, Box<dyn Error>> {
 /// The program's output.
 pub fn report() -> Result<String, Box<dyn Error>> {
     let app = ran(TICKS)?;
-    let (frame, diary) = (&app.world().resource::<LatestFrame>().0, app.world().resource::<Diary>());
+    let (frame, diary) = (app.world().resource::<LatestFrame>().frame(), app.world().resource::<Diary>());
     let mut lines = diary.lines.clone();
     lines.push(format!("{} contacts", diary.contacts));
     let mut script = app.world().resource::<PendingInput>().script().clone();

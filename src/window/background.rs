@@ -118,20 +118,20 @@ impl Save {
 impl Job {
     /// Does a tick of the work. Returns whether there is more.
     fn step(&mut self, world: &mut World) -> Result<bool, SessionError> {
-        let tick = world.resource::<Transport>().tick;
+        let tick = world.resource::<Transport>().tick();
         match self {
             Job::Seek { to, .. } => {
                 if tick != *to {
                     seek(world, next_on_the_way(world, *to))?;
                 }
-                Ok(world.resource::<Transport>().tick != *to)
+                Ok(world.resource::<Transport>().tick() != *to)
             }
             Job::Check(check) => {
                 let ticks = check.comparison.log().ticks();
                 if tick < ticks {
                     // a seek, so that observers of contacts hear nothing of the comparison
                     seek(world, tick + 1)?;
-                    check.comparison.tick(&world.resource::<LatestFrame>().0);
+                    check.comparison.tick(world.resource::<LatestFrame>().frame());
                 }
                 Ok(tick + 1 < ticks && check.comparison.difference().is_none())
             }
@@ -146,7 +146,7 @@ impl Job {
 
     /// How far the work is, in words.
     fn words(&self, world: &World) -> String {
-        let tick = world.resource::<Transport>().tick;
+        let tick = world.resource::<Transport>().tick();
         match self {
             Job::Seek { from, to } => {
                 format!("going to tick {to}: {} of {}", tick.abs_diff(*from.min(&tick)), to.abs_diff(*from.min(to)))
@@ -161,7 +161,7 @@ impl Job {
     /// Ends the job. Returns what to say.
     fn finish(self, world: &mut World, finish: Finish) -> Result<Option<Notice>, SessionError> {
         let plain = |text: String| Some(Notice { text, is_error: false });
-        let tick = world.resource::<Transport>().tick;
+        let tick = world.resource::<Transport>().tick();
         let was_stopped = finish == Finish::Stopped;
         Ok(match self {
             Job::Seek { to, .. } if was_stopped => plain(format!("stopped at tick {tick} on the way to {to}")),
@@ -178,7 +178,7 @@ impl Job {
 
 /// The next tick on the way to `to` that costs at most one tick of simulation: a keyframe's, or the one that follows.
 fn next_on_the_way(world: &World, to: u64) -> u64 {
-    let now = world.resource::<Transport>().tick;
+    let now = world.resource::<Transport>().tick();
     let begins = way_begins(world, to);
     if begins == now { now + 1 } else { begins }
 }
@@ -186,20 +186,21 @@ fn next_on_the_way(world: &World, to: u64) -> u64 {
 /// The tick from which on the way to `to` is simulated: the present one, or the last keyframe's where that is nearer or
 /// `to` lies behind.
 fn way_begins(world: &World, to: u64) -> u64 {
-    let now = world.resource::<Transport>().tick;
+    let now = world.resource::<Transport>().tick();
     let keyframe = world.resource::<Keyframes>().before(to).map_or(0, |frame| frame.tick);
     if to < now || keyframe > now { keyframe } else { now }
 }
 
 /// Whether this number of ticks of the run under way takes so long that it is done in the background.
 pub fn is_long(world: &World, ticks: u64) -> bool {
-    ticks.saturating_mul(world.resource::<LatestFrame>().0.robots.len() as u64) > AT_ONCE
+    ticks.saturating_mul(world.resource::<LatestFrame>().frame().robots.len() as u64) > AT_ONCE
 }
 
 /// Goes to another tick in the background if that takes long. Returns whether it does; if not, the command is left to
 /// the run.
 pub fn seek_in_background(world: &mut World, command: &TransportCommand) -> bool {
-    let Transport { tick: now, playback, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (now, playback) = (transport.tick(), transport.playback);
     // a run that stands only for a seek goes on playing after the seek that takes its place
     let under_way = world.resource::<Background>().0.as_ref();
     let held = under_way.filter(|work| matches!(work.job, Job::Seek { .. })).map(|work| work.playback);

@@ -29,10 +29,10 @@ pub fn crowd(world: &World, number: usize, between: f64) -> Option<CrowdView> {
 
 /// Reads the crowds again if there was a tick, or another run began, since they were read last.
 pub fn update_crowds(world: &mut World) {
-    let Some(RunConfig(config)) = world.get_resource::<RunConfig>().cloned() else { return };
+    let Some(config) = world.get_resource::<RunConfig>().map(|config| Arc::clone(config.config())) else { return };
     let Some(written) = world.get_resource_change_ticks::<LatestFrame>() else { return };
     let playing = world.resource::<Transport>().playback == Playback::Playing;
-    let read = (world.resource::<LatestFrame>().0.tick, written.changed, playing);
+    let read = (world.resource::<LatestFrame>().frame().tick, written.changed, playing);
     let kept = world.resource_mut::<CrowdViews>().into_inner();
     let is_same_run = kept.config.as_ref().is_some_and(|c| Arc::ptr_eq(c, &config));
     if !is_same_run {
@@ -83,7 +83,7 @@ fn named(config: &TourConfig) -> Vec<Option<CrowdView>> {
 fn write(robots: &mut Vec<CrowdRobot>, world: &World, crowd: &CrowdView) {
     robots.clear();
     let playing = world.resource::<Transport>().playback == Playback::Playing;
-    let states = world.resource::<LatestFrame>().0.robots.get(crowd.first as usize..).unwrap_or_default();
+    let states = world.resource::<LatestFrame>().frame().robots.get(crowd.first as usize..).unwrap_or_default();
     for (place, state) in states.iter().take(crowd.names.len()).enumerate() {
         let stance = match crowd.members.circle(place) {
             Some(_) => Stance::In(state.configuration.clone()),

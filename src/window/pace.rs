@@ -40,9 +40,8 @@ pub struct Pace {
 }
 
 impl Pace {
-    /// Records a frame that took `seconds` of the clock, after which the run stands at the transport's tick.
-    pub fn frame(&mut self, seconds: f64, transport: &Transport) {
-        let Transport { tick, speed, playback, .. } = *transport;
+    /// Records a frame that took `seconds` of the clock, after which a run of this speed stands at `tick`.
+    pub fn frame(&mut self, seconds: f64, tick: u64, speed: f64, playback: Playback) {
         let before = self.last.replace((tick, speed));
         // more ticks than a frame can play, those that a stall left over included, are a jump forward
         let most = if speed.is_finite() { 16 + (2.0 * speed * seconds / DT) as u64 } else { u64::MAX };
@@ -100,7 +99,8 @@ impl Pace {
 /// frame shows.
 pub fn play_flat_out(world: &mut World) {
     let flat_out = |world: &World| {
-        let Transport { playback, speed, .. } = *world.resource::<Transport>();
+        let transport = world.resource::<Transport>();
+        let (playback, speed) = (transport.playback, transport.speed);
         playback == Playback::Playing && speed.is_infinite()
     };
     let start = Instant::now();
@@ -111,20 +111,20 @@ pub fn play_flat_out(world: &mut World) {
 
 /// Lets no more time pass in this frame than its ticks may take.
 pub fn limit(world: &mut World) {
-    let robots = world.resource::<LatestFrame>().0.robots.len();
+    let robots = world.resource::<LatestFrame>().frame().robots.len();
     let most = world.resource::<Pace>().max_delta(robots, world.resource::<Transport>().speed);
     world.resource_mut::<Time<Virtual>>().set_max_delta(most);
 }
 
 /// Notes where the fixed loop begins.
 pub fn begin_ticks(mut pace: ResMut<Pace>, transport: Res<Transport>) {
-    pace.began = Some((Instant::now(), transport.tick));
+    pace.began = Some((Instant::now(), transport.tick()));
 }
 
 /// Measures what a tick took.
 pub fn end_ticks(mut pace: ResMut<Pace>, transport: Res<Transport>) {
     let Some((began, tick)) = pace.began.take() else { return };
-    let ticks = transport.tick.saturating_sub(tick);
+    let ticks = transport.tick().saturating_sub(tick);
     if ticks > 0 && transport.speed.is_finite() {
         let took = began.elapsed().as_secs_f64() / ticks as f64;
         pace.tick_seconds = Some(pace.tick_seconds.map_or(took, |before| before + 0.3 * (took - before)));
@@ -134,24 +134,22 @@ pub fn end_ticks(mut pace: ResMut<Pace>, transport: Res<Transport>) {
 /// Measures the frame.
 pub fn measure(world: &mut World) {
     let seconds = world.resource::<Time<Real>>().delta_secs_f64();
-    let transport = *world.resource::<Transport>();
-    world.resource_mut::<Pace>().frame(seconds, &transport);
+    let transport = world.resource::<Transport>();
+    let (tick, speed, playback) = (transport.tick(), transport.speed, transport.playback);
+    world.resource_mut::<Pace>().frame(seconds, tick, speed, playback);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use motion_lab_core::random::Seed;
 
     /// The note after two seconds of frames, each `seconds` long, in each of which the run goes on by `ticks`.
     fn said(speed: f64, seconds: f64, ticks: f64) -> Option<String> {
         let mut pace = Pace::default();
-        let mut transport = Transport { speed, playback: Playback::Playing, ..Transport::new(Seed(1)) };
         let mut sum = 0.0;
         for _ in 0..(2.0 / seconds) as u32 {
             sum += ticks;
-            transport.tick = sum as u64;
-            pace.frame(seconds, &transport);
+            pace.frame(seconds, sum as u64, speed, Playback::Playing);
         }
         pace.words(speed)
     }
@@ -188,22 +186,18 @@ mod tests {
     #[test]
     fn a_jump_begins_a_new_measurement() {
         let mut pace = Pace::default();
-        let mut transport = Transport { speed: 1.0, playback: Playback::Playing, ..Transport::new(Seed(1)) };
-        for frame in 0..120 {
-            transport.tick = frame / 3;
-            pace.frame(1.0 / 60.0, &transport);
+        let frame = |pace: &mut Pace, tick| pace.frame(1.0 / 60.0, tick, 1.0, Playback::Playing);
+        for number in 0..120 {
+            frame(&mut pace, number / 3);
         }
         assert_eq!(pace.reached().map(|x| x.round()), Some(1.0));
-        transport.tick += 500;
-        pace.frame(1.0 / 60.0, &transport);
+        frame(&mut pace, 539);
         assert_eq!(pace.reached(), None, "forward");
-        for frame in 0..120 {
-            transport.tick += u64::from(frame % 3 == 0);
-            pace.frame(1.0 / 60.0, &transport);
+        for number in 0..120 {
+            frame(&mut pace, 540 + number / 3);
         }
         assert_eq!(pace.reached().map(|x| x.round()), Some(1.0));
-        transport.tick = 3;
-        pace.frame(1.0 / 60.0, &transport);
+        frame(&mut pace, 3);
         assert_eq!(pace.reached(), None, "back");
     }
 }

@@ -39,7 +39,7 @@ pub fn shown_run(world: &World, ticks: u64) -> ShownRun {
 
 /// The run as far as it has come, recorded from its recipe, and its log's bytes.
 pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), SessionError> {
-    let Transport { frontier, .. } = *world.resource::<Transport>();
+    let frontier = world.resource::<Transport>().frontier();
     if frontier == 0 {
         return Err(SessionError::NotRun);
     }
@@ -53,8 +53,8 @@ pub fn recorded(world: &World) -> Result<(Log, Vec<u8>), SessionError> {
 /// digest of each second above. Returns what came of it; nothing yet where it takes long and goes on in the background.
 pub fn save(world: &mut World, done: Done) -> Result<Option<Notice>, SessionError> {
     background::stop(world);
-    let Transport { frontier, .. } = *world.resource::<Transport>();
-    if world.resource::<LatestFrame>().0.robots.len() > MAX_ROBOTS_IN_FULL && frontier > 0 {
+    let frontier = world.resource::<Transport>().frontier();
+    if world.resource::<LatestFrame>().frame().robots.len() > MAX_ROBOTS_IN_FULL && frontier > 0 {
         let ShownRun { recipe, kinds } = shown_run(world, frontier);
         let recorder = Recorder::of_with_robots(&recipe, |app| kinds.add_to(app))?;
         let writer = LogWriter::new(Vec::new(), &recipe, LogKind::Digests, recorder.frame())?;
@@ -79,7 +79,7 @@ pub fn open_log(world: &mut World, name: &str, bytes: &[u8]) -> Result<Option<No
     world.resource_mut::<Interface>().0.played = false;
     let mut transport = world.resource_mut::<Transport>();
     (transport.playback, transport.speed) = (Playback::Paused, speed);
-    let comparison = Comparison::begin(log, &world.resource::<LatestFrame>().0);
+    let comparison = Comparison::begin(log, world.resource::<LatestFrame>().frame());
     background::check(world, Check::begin(name, comparison, damage))
 }
 

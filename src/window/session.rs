@@ -25,8 +25,8 @@ use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::run::{DT, Recipe};
 use motion_lab_sim::simulation::{
     CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,
-    RunConfig, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, checkpoint, sensors_of, start_recipe,
-    start_run, take_sensors_at_start, undoes, view_of,
+    RunConfig, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, checkpoint, sensors_of, settle,
+    start_recipe, start_run, undoes, view_of,
 };
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 use pending::{Said, scene_of};
@@ -134,11 +134,19 @@ fn note_refusals(
 
 /// Reads the values that the window shows from the simulation. This is the one place where the two meet.
 pub fn gather(world: &mut World) {
-    take_sensors_at_start(world);
+    settle(world);
     draw_worlds(world);
-    let config = Arc::clone(&world.resource::<RunConfig>().0);
+    let config = Arc::clone(world.resource::<RunConfig>().config());
     world.resource_mut::<Interface>().0.plan.see_run(&config);
-    let Transport { seed, tick, frontier, speed, looping, playback } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (seed, tick, frontier, speed, looping, playback) = (
+        transport.seed(),
+        transport.tick(),
+        transport.frontier(),
+        transport.speed,
+        transport.looping,
+        transport.playback,
+    );
     let playing = playback == Playback::Playing;
     // while it plays, the view is one tick behind and moves smoothly; paused or as fast as possible, it shows the tick
     let smooth = playing && speed.is_finite();
@@ -181,7 +189,7 @@ pub fn gather(world: &mut World) {
 }
 
 fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
-    let tick = world.resource::<Transport>().tick;
+    let tick = world.resource::<Transport>().tick();
     let is_arm = robot.tip.is_some();
     let pose = match robot.coordinates[..] {
         [x, y, theta, ..] => Some(Pose2 { x, y, theta }),
@@ -277,7 +285,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let atlas = &world.resource::<Interface>().0.atlas;
                 let here = command == SessionCommand::RunFromHere;
                 let model = if here { atlas.atlas().from_here() } else { atlas.world().clone() };
-                let seed = world.resource::<Transport>().seed;
+                let seed = world.resource::<Transport>().seed();
                 let config = TourConfig { worlds: vec![model], ..TourConfig::default() };
                 let ran = new_run(world, Recipe::new(config, seed));
                 if ran.is_ok() {
@@ -287,7 +295,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 world.resource_mut::<Interface>().0.say(said_of(ran));
             }
             Command::Session(SessionCommand::ThreeRobots) => {
-                let seed = world.resource::<Transport>().seed;
+                let seed = world.resource::<Transport>().seed();
                 let notice = said_of(new_run(world, Recipe::new(TourConfig::default(), seed)));
                 world.resource_mut::<Interface>().0.say(notice);
             }
@@ -302,7 +310,8 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
 
 /// Says what an input drops that is given to a run at an earlier tick than it has reached.
 fn note_dropped(world: &mut World, command: &Command) {
-    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (tick, frontier) = (transport.tick(), transport.frontier());
     let is_input = matches!(command, Command::Run(RunCommand::Robot(_) | RunCommand::World(_)));
     if is_input && tick < frontier {
         let text = format!("What came after {:.2} s is dropped. Undo brings it back.", tick as f64 * DT);
@@ -335,7 +344,7 @@ fn play_path(world: &mut World) {
     if ran.is_ok() {
         world.resource_mut::<Transport>().playback = Playback::Playing;
     }
-    let config = Arc::clone(&world.resource::<RunConfig>().0);
+    let config = Arc::clone(world.resource::<RunConfig>().config());
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
     if ran.is_ok() {
         ui.plan.is_played_by(&config, inputs);
@@ -346,7 +355,7 @@ fn play_path(world: &mut World) {
 
 /// A new run of the same seed in which the arm named `robot` has two or three links.
 fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), SessionError> {
-    let mut config = TourConfig::clone(&world.resource::<RunConfig>().0);
+    let mut config = TourConfig::clone(world.resource::<RunConfig>().config());
     let mut arms = config.worlds.iter_mut().flat_map(|w| &mut w.robots);
     let Some(arm) = arms.find(|r| r.name == robot) else { return Err(SessionError::NoRobot(robot.to_owned())) };
     arm.kind = if links == 3 { RobotKind::REACH3 } else { RobotKind::REACH }.name.into();
@@ -355,7 +364,7 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Sess
         own.lengths = other.lengths;
     }
     arm.start.resize(links, 0.5);
-    let seed = world.resource::<Transport>().seed;
+    let seed = world.resource::<Transport>().seed();
     new_run(world, Recipe::new(config, seed))
 }
 
@@ -363,9 +372,10 @@ fn change_links(world: &mut World, robot: &str, links: usize) -> Result<(), Sess
 pub fn new_run(world: &mut World, recipe: Recipe) -> Result<(), SessionError> {
     background::stop(world);
     checkpoint(world);
-    let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (playback, speed, looping) = (transport.playback, transport.speed, transport.looping);
     start_recipe(world, recipe)?;
     let mut transport = world.resource_mut::<Transport>();
-    *transport = Transport { playback, speed, looping, ..*transport };
+    (transport.playback, transport.speed, transport.looping) = (playback, speed, looping);
     Ok(())
 }

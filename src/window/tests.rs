@@ -34,6 +34,17 @@ use motion_lab_sim::simulation::{
     History, LatestFrame, PendingInput, Playback, RobotView, RunCommand, RunConfig, Transport, view,
 };
 
+/// What the transport said when it was asked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct TransportThen {
+    seed: motion_lab_core::random::Seed,
+    tick: u64,
+    frontier: u64,
+    playback: Playback,
+    speed: f64,
+    looping: bool,
+}
+
 /// The lab, run frame by frame. A frame takes a fortieth of a second: half a tick at normal speed.
 struct Lab {
     app: App,
@@ -54,8 +65,11 @@ impl Lab {
         carry_out(world, commands);
     }
 
-    fn transport(&self) -> Transport {
-        *self.app.world().resource::<Transport>()
+    fn transport(&self) -> TransportThen {
+        let transport = self.app.world().resource::<Transport>();
+        let &Transport { playback, speed, looping, .. } = transport;
+        let (seed, tick, frontier) = (transport.seed(), transport.tick(), transport.frontier());
+        TransportThen { seed, tick, frontier, playback, speed, looping }
     }
 
     fn robot(&self, id: usize) -> RobotView {

@@ -18,6 +18,8 @@ mod bug1;
 mod crowd;
 #[path = "../../examples/custom_robot.rs"]
 pub mod custom_robot;
+#[path = "../../examples/foreign_systems.rs"]
+mod foreign_systems;
 #[path = "../../examples/lab_tour.rs"]
 mod lab_tour;
 #[path = "../../examples/own_planner.rs"]
@@ -145,7 +147,7 @@ fn an_app_of_ones_own() {
     assert!(going > 2 && turning > 2 && going + turning == script.events.len(), "{going} and {turning}");
     assert!(script.events.iter().all(|e| e.robot == "Rusty"), "the system drives rovers alone");
     // the observer's count is the frame's
-    let frame = &app.world().resource::<motion_lab::simulation::LatestFrame>().0;
+    let frame = app.world().resource::<motion_lab::simulation::LatestFrame>().frame();
     assert_eq!(
         app.world().resource::<bevy_app::Diary>().contacts,
         frame.robots.iter().map(|r| r.contacts).sum::<u32>()
@@ -240,4 +242,9 @@ fn the_bounds_of_a_robot_of_ones_own_hold() {
         holds(&|s| drive.footprint_at(s), (0..3).map(|part| drive.rates(part)).collect());
         assert_eq!(drive.at(0.0), a);
     }
+}
+
+#[test]
+fn systems_of_others_change_the_start_and_not_the_run() {
+    assert_prints!("foreign_systems", foreign_systems::report().unwrap());
 }

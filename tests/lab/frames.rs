@@ -12,8 +12,7 @@ use std::time::{Duration, Instant};
 
 use bevy::prelude::*;
 use bevy_egui::{EguiPostUpdateSet, EguiPrimaryContextPass};
-use motion_lab::random::Seed;
-use motion_lab::simulation::{Playback, Transport};
+use motion_lab::simulation::{Playback, Transport, headless_app};
 
 use measure::{MeasurePlugin, Measuring, UNMEASURED, end};
 use processor::{ticks, ticks_a_second, time_taken, time_waited, waited};
@@ -111,9 +110,11 @@ fn work_takes_time_and_sleep_takes_none() {
 /// The app of a run that plays or is paused, in which `frames` are measured.
 fn measured(playback: Playback, frames: u32) -> (App, Arc<Mutex<FrameTimes>>) {
     let times = Arc::new(Mutex::new(FrameTimes::default()));
+    // the transport of an app that simulates
+    let mut transport = headless_app().world_mut().remove_resource::<Transport>().unwrap();
+    transport.playback = playback;
     let mut app = App::new();
-    app.insert_resource(Transport { playback, ..Transport::new(Seed(1)) })
-        .add_plugins(MeasurePlugin { frames, times: Arc::clone(&times) });
+    app.insert_resource(transport).add_plugins(MeasurePlugin { frames, times: Arc::clone(&times) });
     (app, times)
 }
 

@@ -7,3 +7,4 @@ mod runs;
 mod sensors;
 mod simulator;
 mod tick_oracle;
+mod truth;

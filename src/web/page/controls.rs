@@ -196,7 +196,7 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
         Message::Robot { robot, input } => give(world, robot, input).map(|()| None),
         Message::Door { world: of, name, open } => {
             let change = if open { WorldChange::Open } else { WorldChange::Close }(name);
-            let tick = world.resource::<Transport>().tick + 1;
+            let tick = world.resource::<Transport>().tick() + 1;
             let event = WorldEvent { tick, world: of.clone(), change: change.clone() };
             check(world, Script::new(vec![], vec![event]))?;
             transport(world, TransportCommand::Checkpoint)?;
@@ -244,7 +244,7 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
 /// Gives a robot of the run an input that its kind takes.
 fn give(world: &mut World, robot: String, input: Input) -> Result<(), PageError> {
     let input = input.robot_input().ok_or_else(|| PageError::Coordinate(robot.clone()))?;
-    let event = Event { tick: world.resource::<Transport>().tick + 1, robot: robot.clone(), input: input.clone() };
+    let event = Event { tick: world.resource::<Transport>().tick() + 1, robot: robot.clone(), input: input.clone() };
     check(world, Script::new(vec![event], vec![]))?;
     world.write_message(RunCommand::from(RobotCommand { robot, input }));
     Ok(())
@@ -253,7 +253,7 @@ fn give(world: &mut World, robot: String, input: Input) -> Result<(), PageError>
 /// Refuses what the run can't take.
 fn check(world: &World, script: Script) -> Result<(), PageError> {
     let kinds = world.resource::<RobotKinds>().known();
-    Ok(script.check_for_kinds(&world.resource::<RunConfig>().0, &kinds)?)
+    Ok(script.check_for_kinds(world.resource::<RunConfig>().config(), &kinds)?)
 }
 
 /// Acts on a widget by AccessKit's requests, as assistive technology does.

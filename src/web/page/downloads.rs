@@ -86,7 +86,7 @@ fn capture(world: &World, order: &CaptureOrder) -> Result<String, SessionError> 
     if pictures > MAX_PICTURES {
         return Err(CaptureError::TooMany { pictures, most: MAX_PICTURES }.into());
     }
-    let run = shown_run(world, world.resource::<Transport>().frontier);
+    let run = shown_run(world, world.resource::<Transport>().frontier());
     let kinds = run.kinds.clone();
     let (log, paper) = (run.record()?, paper(world, width));
     Film::try_new(&log, &subject, span)?.pictures(
@@ -109,7 +109,8 @@ fn paper(world: &World, width: u32) -> Paper {
 
 /// A picture of the widget in front as SVG, on a sheet of at most this width, pixels.
 pub fn picture(world: &World, width: u32) -> Result<String, SessionError> {
-    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (tick, frontier) = (transport.tick(), transport.frontier());
     let run = shown_run(world, frontier);
     let paper = paper(world, width);
     let figure = captured(&world.resource::<Interface>().0, run, tick, paper.width_px())?;

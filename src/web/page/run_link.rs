@@ -41,7 +41,7 @@ fn digest_at(world: &World, ticks: u64) -> Result<Digest, SessionError> {
 
 /// The link of what is shown.
 pub fn link_of(world: &World) -> Result<Link, PageError> {
-    let Transport { tick, .. } = *world.resource::<Transport>();
+    let tick = world.resource::<Transport>().tick();
     let run = shown_run(world, tick);
     let mut link = Link::of(&run.recipe)?;
     if tick > 0 {

@@ -70,8 +70,8 @@ pub fn capture(world: &mut World, order: &CaptureOrder, path: &Path) {
     // the file name's extension decides the format, where it names one
     let form = CaptureForm::of(path).unwrap_or(order.form);
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
-    let (tick, span) = (world.resource::<Transport>().tick, order.span);
-    let frontier = world.resource::<Transport>().frontier;
+    let (tick, span) = (world.resource::<Transport>().tick(), order.span);
+    let frontier = world.resource::<Transport>().frontier();
     let run = shown_run(world, frontier);
     let progress = Arc::new(CaptureProgress::default());
     let (shared, to) = (Arc::clone(&progress), path.to_owned());
@@ -98,7 +98,8 @@ pub fn copy_picture(world: &mut World, order: &CaptureOrder) {
     let state = world.resource::<Interface>().0.clone();
     let widget = state.widget;
     let paper = Paper { palette: state.theme().palette(), width: order.width, scale: order.scale as f32 };
-    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (tick, frontier) = (transport.tick(), transport.frontier());
     let (run, clipboard) = (shown_run(world, frontier), world.resource::<Clipboard>().clone());
     let progress = Arc::new(CaptureProgress::default());
     let shared = Arc::clone(&progress);

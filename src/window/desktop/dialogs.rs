@@ -102,13 +102,13 @@ pub fn ask(
     let Some(config) = config else { return };
     for command in asked.read() {
         match command {
-            SessionCommand::Save if transport.frontier == 0 => {
+            SessionCommand::Save if transport.frontier() == 0 => {
                 // before a file is named for it
                 interface.0.say(Notice { text: SessionError::NotRun.to_string(), is_error: true });
                 continue;
             }
             SessionCommand::Save => {
-                dialogs.runs.config_mut().default_file_name = format!("run-{}.{EXTENSION}", transport.seed);
+                dialogs.runs.config_mut().default_file_name = format!("run-{}.{EXTENSION}", transport.seed());
                 dialogs.runs.save_file();
             }
             SessionCommand::Open => dialogs.runs.pick_file(),
@@ -120,11 +120,11 @@ pub fn ask(
             SessionCommand::SavePath => dialogs.paths.save_file(),
             SessionCommand::OpenPath => dialogs.paths.pick_file(),
             SessionCommand::Capture(order) => {
-                if let Err(error) = check(&config.0, &interface.0, order) {
+                if let Err(error) = check(config.config(), &interface.0, order) {
                     interface.0.say(not_captured(&error));
                     continue;
                 }
-                let mut dialog = picture_dialog(&interface.0, order, transport.seed, transport.tick);
+                let mut dialog = picture_dialog(&interface.0, order, transport.seed(), transport.tick());
                 dialog.save_file();
                 dialogs.picture = Some((dialog, *order));
             }

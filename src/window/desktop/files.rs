@@ -31,7 +31,7 @@ const MAX_WORLD: u64 = 32 << 20;
 /// Returns what came of it; nothing yet where it takes long and goes on in the background.
 pub fn save_run(world: &mut World, path: &Path) -> Option<Notice> {
     let to = path.to_owned();
-    let is_there = note_in_file(world, world.resource::<Transport>().frontier);
+    let is_there = note_in_file(world, world.resource::<Transport>().frontier());
     let write = move |bytes: &[u8], words: String| {
         write_file(&to, bytes)?;
         is_there.store(true, Ordering::Release);

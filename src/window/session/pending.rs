@@ -44,7 +44,8 @@ pub fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
 
 /// Whether the run is paused with a change of a world, or an input to one of its robots, due at the next tick.
 pub fn waits(world: &World, name: &str, robots: &[CockpitRobot]) -> bool {
-    let Transport { tick, playback, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (tick, playback) = (transport.tick(), transport.playback);
     let pending = world.resource::<PendingInput>();
     let is_here = |event: &Event| robots.iter().any(|robot| robot.name == event.robot);
     playback == Playback::Paused
@@ -53,7 +54,8 @@ pub fn waits(world: &World, name: &str, robots: &[CockpitRobot]) -> bool {
 
 /// The doors of a world that open or close with the next tick of a paused run.
 pub fn doors(world: &World, name: &str) -> Vec<(String, bool)> {
-    let Transport { tick, playback, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (tick, playback) = (transport.tick(), transport.playback);
     let due = world.resource::<PendingInput>().due_changes(tick + 1).iter();
     let due = due.filter(|change| playback == Playback::Paused && change.world == name);
     let doors = due.filter_map(|change| match &change.change {
@@ -66,7 +68,7 @@ pub fn doors(world: &World, name: &str) -> Vec<(String, bool)> {
 
 /// The coordinates that an input asks of a robot by the next tick.
 pub fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
-    let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick + 1);
+    let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick() + 1);
     due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
         RobotInput::MoveTo(to) | RobotInput::Teleport(to) => Some(to.iter().map(|c| c.value()).collect()),
         _ => None,
@@ -75,7 +77,7 @@ pub fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
 
 /// The tick by which an input put a robot somewhere last, as far back as its trail goes; 0 without one.
 pub fn put(world: &World, robot: &RobotView) -> u64 {
-    put_by(world.resource::<PendingInput>().script(), &robot.name, world.resource::<Transport>().tick)
+    put_by(world.resource::<PendingInput>().script(), &robot.name, world.resource::<Transport>().tick())
 }
 
 fn put_by(script: &Script, robot: &str, tick: u64) -> u64 {

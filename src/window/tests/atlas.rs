@@ -76,7 +76,7 @@ fn the_editor_draws_with_the_mouse_undoes_by_key_and_saves_the_same_bytes() {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(3);
     assert_eq!(points(&harness), [[-0.5, -0.5], [0.0, -0.8], [0.5, -0.5]], "the key undoes the edit");
-    assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 3, "and nothing of the run");
+    assert_eq!(harness.state().app.world().resource::<RunConfig>().config().worlds.len(), 3, "and nothing of the run");
     // a place is turned by its second handle, to a whole step
     click(&mut harness, "Add place");
     click_at(&mut harness, middle);

@@ -191,7 +191,7 @@ fn what_does_not_move_or_is_not_in_the_run_is_refused_in_place() {
     let mut asked = order(&mut harness);
     asked.span = motion_lab_sim::capture::CaptureSpan { from: 0, to: 8, every: 8 };
     (asked.width, asked.scale) = (640, 1);
-    let config = harness.state().app.world().resource::<RunConfig>().0.clone();
+    let config = harness.state().app.world().resource::<RunConfig>().config().clone();
     assert!(check(&config, &ui(&harness), &asked).is_ok());
     let path = folder.path().join("s.gif");
     let said = done(&mut harness, &asked, &path);

@@ -192,7 +192,7 @@ fn a_long_way_to_another_tick_goes_on_in_the_background_and_ends_on_the_same_bit
     assert!(frames > 1, "in pieces");
     let mut straight = Recorder::new(config, BOOK_SEED).unwrap();
     (0..30).for_each(|_| _ = straight.step());
-    assert_eq!(&harness.state().app.world().resource::<LatestFrame>().0, straight.frame());
+    assert_eq!(harness.state().app.world().resource::<LatestFrame>().frame(), straight.frame());
     // it played before the way there, and plays again when something else is asked of it meanwhile
     let app = harness.state_mut().app.world_mut();
     app.resource_mut::<Transport>().playback = Playback::Playing;
@@ -236,7 +236,7 @@ fn a_crowd_is_saved_without_its_frames_and_opened_again() {
     assert_eq!(verify(&log, |_| {}).unwrap().difference, None);
     let opened = open_run(app, &path).unwrap();
     assert_eq!(opened.text, "crowd.mcap: bit-identical, 25 of 25");
-    assert_eq!((app.resource::<Transport>().tick, app.resource::<Transport>().frontier), (0, 25));
+    assert_eq!((app.resource::<Transport>().tick(), app.resource::<Transport>().frontier()), (0, 25));
     // the digests of a run one bit of which was changed at tick 5
     let mut run = Recorder::of(&log.recipe).unwrap();
     let mut writer = LogWriter::new(Vec::new(), &log.recipe, LogKind::Digests, run.frame()).unwrap();
@@ -248,5 +248,5 @@ fn a_crowd_is_saved_without_its_frames_and_opened_again() {
     std::fs::write(&path, writer.finish().unwrap()).unwrap();
     let opened = open_run(app, &path).unwrap();
     assert!(opened.is_error && opened.text.contains("second 1, ticks 1 to 20"), "{opened:?}");
-    assert_eq!(app.resource::<Transport>().tick, 1, "the first tick that may differ");
+    assert_eq!(app.resource::<Transport>().tick(), 1, "the first tick that may differ");
 }

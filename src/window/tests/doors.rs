@@ -123,7 +123,7 @@ fn a_run_begins_where_the_atlas_has_its_robot() {
     let there = robot(&harness);
     click(&mut harness, "Run from here");
     assert_eq!(harness.state().transport().playback, Playback::Playing, "it runs");
-    let worlds = &harness.state().app.world().resource::<RunConfig>().0.worlds;
+    let worlds = &harness.state().app.world().resource::<RunConfig>().config().worlds;
     assert_eq!((worlds.len(), &worlds[0].robots[0].start[..]), (1, &there[..]));
 }
 

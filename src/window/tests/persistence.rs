@@ -74,7 +74,7 @@ fn a_run_comes_back_after_a_program_that_ended_without_a_word() {
     let mut harness = window(folder.path());
     drive(&mut harness, folder.path());
     let (before, script) = (harness.state().transport(), harness.state().script().clone());
-    let frame = harness.state().app.world().resource::<LatestFrame>().0.clone();
+    let frame = harness.state().app.world().resource::<LatestFrame>().frame().clone();
     assert!(before.tick > 20 && before.tick + 3 == before.frontier && script.events.len() >= 3, "{script:?}");
     drop(harness);
     let mut harness = window(folder.path());
@@ -87,7 +87,7 @@ fn a_run_comes_back_after_a_program_that_ended_without_a_word() {
     assert_eq!((now.seed, now.tick, now.frontier), (before.seed, before.tick, before.frontier));
     assert_eq!(now.playback, Playback::Paused);
     assert_eq!(*harness.state().script(), script);
-    assert_eq!(harness.state().app.world().resource::<LatestFrame>().0, frame, "to the last bit");
+    assert_eq!(*harness.state().app.world().resource::<LatestFrame>().frame(), frame, "to the last bit");
     harness.get_by_label_contains("bit-identical");
     assert!(!is_offered(&harness));
     // it is the run under way now, kept in this window's own file and no other
@@ -271,5 +271,5 @@ fn what_the_program_was_started_with_is_among_the_recent_files() {
         open(world, Opened::WorldFile(at("b.ron"), Box::new(motion_lab_core::worlds::World::workbench()))).is_none()
     );
     assert_eq!(interface(&harness).recent.files(), [at("b.ron"), at("a.mcap")]);
-    assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds[0].name, "Workbench");
+    assert_eq!(harness.state().app.world().resource::<RunConfig>().config().worlds[0].name, "Workbench");
 }

@@ -14,14 +14,14 @@ fn scrubbing_back_and_driving_on_forgets_what_came_later() {
     harness.run_steps(20);
     pause(&mut harness);
     let end = harness.state().transport();
-    let there = harness.state().app.world().resource::<LatestFrame>().0.clone();
+    let there = harness.state().app.world().resource::<LatestFrame>().frame().clone();
     harness.key_press(Key::Home);
     harness.run_steps(2);
     assert_eq!(harness.state().transport().tick, 0);
     assert_eq!(harness.state().transport().frontier, end.frontier, "scrubbing forgets nothing");
     harness.key_press(Key::End);
     harness.run_steps(2);
-    assert_eq!(harness.state().app.world().resource::<LatestFrame>().0, there, "the same bits");
+    assert_eq!(*harness.state().app.world().resource::<LatestFrame>().frame(), there, "the same bits");
     // to the middle by the time line itself
     let line = harness.get_by_label("time line, in ticks").rect();
     click_at(&mut harness, line.center());
@@ -84,7 +84,7 @@ fn a_seed_is_typed_and_typed_back() {
     harness.run_steps(100);
     pause(&mut harness);
     let tick = harness.state().transport().tick;
-    let before = harness.state().app.world().resource::<LatestFrame>().0.clone();
+    let before = harness.state().app.world().resource::<LatestFrame>().frame().clone();
     let seed = |harness: &mut Harness<'_, Lab>, seed: &str| {
         harness.get_by_label("seed").focus();
         harness.run_steps(2);
@@ -99,7 +99,7 @@ fn a_seed_is_typed_and_typed_back() {
             harness.step();
         }
         harness.run_steps(2);
-        harness.state().app.world().resource::<LatestFrame>().0.clone()
+        harness.state().app.world().resource::<LatestFrame>().frame().clone()
     };
     let other = seed(&mut harness, "77");
     assert_eq!(harness.state().transport().seed.0, 77);
@@ -182,7 +182,7 @@ fn loops_speeds_and_contacts() {
 fn played(frames_per_second: u32, stall: bool) -> Vec<motion_lab_sim::run::Frame> {
     let mut app = app(Duration::from_secs_f64(1.0 / f64::from(frames_per_second)));
     app.update();
-    let config = RunConfig::clone(app.world().resource::<RunConfig>());
+    let config = app.world().resource::<RunConfig>().config().clone();
     let event = |tick, robot: &str, input| motion_lab_sim::run::Event { tick, robot: robot.into(), input };
     let events = vec![
         event(10, "Rusty", RobotInput::Drive(128, 0)),
@@ -192,12 +192,11 @@ fn played(frames_per_second: u32, stall: bool) -> Vec<motion_lab_sim::run::Frame
     ];
     let script = Script { events, ..Script::empty() };
     let world = app.world_mut();
-    motion_lab_sim::simulation::start_run(world, (*config.0).clone(), (motion_lab_sim::tour::BOOK_SEED, script))
-        .unwrap();
+    motion_lab_sim::simulation::start_run(world, config, (motion_lab_sim::tour::BOOK_SEED, script)).unwrap();
     world.resource_mut::<Transport>().playback = Playback::Playing;
     let mut stalls = 0;
-    while app.world().resource::<Transport>().tick < 200 {
-        if stall && app.world().resource::<Transport>().tick > 50 && stalls < 5 {
+    while app.world().resource::<Transport>().tick() < 200 {
+        if stall && app.world().resource::<Transport>().tick() > 50 && stalls < 5 {
             stalls += 1;
             let usual = Duration::from_secs_f64(1.0 / f64::from(frames_per_second));
             app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_secs(5)));
@@ -211,7 +210,7 @@ fn played(frames_per_second: u32, stall: bool) -> Vec<motion_lab_sim::run::Frame
     (1..=200)
         .map(|tick| {
             motion_lab_sim::simulation::seek(world, tick).unwrap();
-            world.resource::<LatestFrame>().0.clone()
+            world.resource::<LatestFrame>().frame().clone()
         })
         .collect()
 }

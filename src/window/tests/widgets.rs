@@ -184,10 +184,10 @@ fn the_atlas_puts_robots_refuses_and_edits() {
     // the buttons stand where the name of the file leaves them
     harness.run_steps(2);
     click(&mut harness, "Run this world");
-    let config = harness.state().app.world().resource::<RunConfig>().0.clone();
+    let config = harness.state().app.world().resource::<RunConfig>().config().clone();
     assert!(config.worlds.len() == 1 && config.worlds[0].obstacle("box").is_some());
     click(&mut harness, "Undo");
-    assert_eq!(harness.state().app.world().resource::<RunConfig>().0.worlds.len(), 3);
+    assert_eq!(harness.state().app.world().resource::<RunConfig>().config().worlds.len(), 3);
 }
 
 #[test]

@@ -306,7 +306,7 @@ fn what_was_driven_is_saved_and_verifies_to_the_same_digest() {
     pause(&mut harness);
     harness.key_press(Key::End);
     harness.run_steps(2);
-    let last = harness.state().app.world().resource::<LatestFrame>().0.clone();
+    let last = harness.state().app.world().resource::<LatestFrame>().frame().clone();
     let notice = save_run(harness.state_mut().app.world_mut(), &path).unwrap();
     assert!(!notice.is_error, "{notice:?}");
     let bytes = std::fs::read(&path).unwrap();

@@ -1,13 +1,18 @@
 //! The lab's robots with the sizes that a world gives them.
 
 use super::{AnyRobot, CarBody, HITCH, Hitch, RUSTY, Reach, Rusty, TrailerBody};
-use crate::configuration::{AnyConfiguration, ArmSizes, CarSizes, Sizes};
+use crate::configuration::{AnyConfiguration, ArmSizes, CarSizes, DiscSizes, Sizes, TrailerSizes};
 
 impl Rusty {
     /// The same rover with these sizes; `None` for those of another sort of robot. The numbers are not checked.
     pub fn with_sizes(&self, sizes: &Sizes) -> Option<Self> {
         let Sizes::Disc(disc) = sizes else { return None };
         Some(Rusty { body_radius: disc.radius, track: disc.track, wheel_radius: disc.wheel_radius, ..*self })
+    }
+
+    /// Its sizes: with them [`with_sizes`](Self::with_sizes) gives this rover from one that differs in nothing else.
+    pub fn sizes(&self) -> Sizes {
+        Sizes::Disc(DiscSizes { radius: self.body_radius, track: self.track, wheel_radius: self.wheel_radius })
     }
 }
 
@@ -18,6 +23,11 @@ impl<const N: usize> Reach<N> {
         let Sizes::Arm(ArmSizes { base, lengths, radius }) = sizes else { return None };
         let lengths = lengths.as_slice().try_into().ok()?;
         Some(Reach { base: *base, lengths, link_radius: *radius })
+    }
+
+    /// Its sizes, which are all that an arm is.
+    pub fn sizes(&self) -> Sizes {
+        Sizes::Arm(ArmSizes { base: self.base, lengths: self.lengths.to_vec(), radius: self.link_radius })
     }
 }
 
@@ -41,6 +51,21 @@ impl Hitch {
             jackknife: trailer.jackknife,
             ..*self
         })
+    }
+
+    /// Its sizes, a trailer's among them: a car without a hitch has those of the trailer that
+    /// [`with_trailer`](Self::with_trailer) attaches.
+    pub fn sizes(&self) -> Sizes {
+        let Hitch { wheelbase, max_steer, body, trailer_body, .. } = *self;
+        let trailer = TrailerSizes {
+            hitch_len: self.hitch_len.unwrap_or(CarSizes::HITCH.trailer.hitch_len),
+            width: trailer_body.width,
+            front_overhang: trailer_body.front_overhang,
+            rear_overhang: trailer_body.rear_overhang,
+            jackknife: self.jackknife,
+        };
+        let CarBody { length, width, rear_overhang } = body;
+        Sizes::Car(CarSizes { wheelbase, length, width, rear_overhang, max_steer, trailer })
     }
 }
 
@@ -85,6 +110,16 @@ impl AnyRobot {
         }
     }
 
+    /// Its sizes.
+    pub fn sizes(&self) -> Sizes {
+        match self {
+            AnyRobot::Rusty(rover) => rover.sizes(),
+            AnyRobot::Reach(arm) => arm.sizes(),
+            AnyRobot::Reach3(arm) => arm.sizes(),
+            AnyRobot::Hitch(car) => car.sizes(),
+        }
+    }
+
     /// As [`of_kind`](Self::of_kind), of a robot with these sizes, or with its kind's own for `None`.
     ///
     /// ```
@@ -118,6 +153,7 @@ mod tests {
                 robot => robot,
             };
             assert_eq!(model.map(towing), sized, "{}", kind.name);
+            assert_eq!(model.map(|robot| robot.sizes()), Some(own.clone()), "{}", kind.name);
             for space in kind.spaces {
                 let start: Vec<f64> = (0..space.coordinates).map(|i| 0.25 * i as f64).collect();
                 let plain = AnyRobot::of_kind(kind.name, &start).unwrap();

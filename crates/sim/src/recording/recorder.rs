@@ -87,17 +87,17 @@ impl Recorder {
     /// The run's configuration. It says the sensors and the obstacles that the run has, whoever spawned, changed or
     /// removed them before its first tick.
     pub fn config(&self) -> &TourConfig {
-        &self.world.resource::<RunConfig>().0
+        self.world.resource::<RunConfig>().config()
     }
 
     /// The same, shared.
     pub fn shared_config(&self) -> Arc<TourConfig> {
-        Arc::clone(&self.world.resource::<RunConfig>().0)
+        Arc::clone(self.world.resource::<RunConfig>().config())
     }
 
     /// The frame of the last tick; at first the frame of tick 0.
     pub fn frame(&self) -> &Frame {
-        &self.world.resource::<LatestFrame>().0
+        self.world.resource::<LatestFrame>().frame()
     }
 
     /// Whether the run has reached its configuration's number of ticks. It can go on.

@@ -8,11 +8,11 @@ use bevy::prelude::*;
 
 use super::obstacles::change::{RefusedChanges, refusal};
 use super::obstacles::roster::sync_added;
-use super::obstacles::start::settle_start;
 use super::transport::re_rolled;
+use super::truth::settle;
 use super::{
-    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, RobotCommand, Roster, SpawnError,
-    Transport, TransportCommand, recipe, seek, start_recipe, step, undo,
+    CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, Refusals, RefusedEvent, RobotCommand,
+    Roster, SpawnError, Transport, TransportCommand, recipe, seek, start_recipe, step, undo,
 };
 use crate::run::{Event, Recipe, Script, WorldChange, WorldEvent};
 use motion_lab_core::random::Seed;
@@ -58,21 +58,16 @@ impl From<RobotCommand> for RunCommand {
 
 /// Carries out the commands written since the last update, in their order.
 pub(super) fn carry_out(world: &mut World) {
-    settle_start(world);
+    settle(world);
     let commands: Vec<RunCommand> = world.resource_mut::<Messages<RunCommand>>().drain().collect();
     for command in commands {
-        match command {
+        let done = match command {
             RunCommand::Robot(command) => capture(world, command),
-            RunCommand::World(command) => {
-                if let Err(error) = change(world, command) {
-                    world.write_message(CommandRefused(error));
-                }
-            }
-            RunCommand::Transport(command) => {
-                if let Err(error) = obey(world, command) {
-                    world.write_message(CommandRefused(error));
-                }
-            }
+            RunCommand::World(command) => change(world, command),
+            RunCommand::Transport(command) => obey(world, command),
+        };
+        if let Err(error) = done {
+            world.write_message(CommandRefused(error));
         }
     }
 }
@@ -87,7 +82,7 @@ pub(super) fn report_changes(mut refused: ResMut<RefusedChanges>, mut messages: 
 /// Stamps a change of a world with the next tick. One that would be refused now is refused, and stays out of the
 /// script.
 fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand) -> Result<(), CommandError> {
-    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+    let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     let Some(now) = recipe(world) else { return Ok(()) };
     let event = WorldEvent { tick: tick + 1, world: name, change };
     let mut changes = world.resource::<PendingInput>().script().changes.clone();
@@ -107,20 +102,23 @@ fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand)
 }
 
 /// Stamps an input with the next tick. Input at a tick before the frontier, and any input to a looping run, continues
-/// the run from there. An input that no script could hold (an unknown robot, a channel out of range) is ignored.
-fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) {
-    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+/// the run from there. An input that no script could hold (an unknown robot, a channel out of range) is refused and
+/// counted, and forgets nothing.
+fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) -> Result<(), CommandError> {
+    let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     let known = world.get_resource::<Roster>().is_some_and(|roster| roster.named(&robot).is_some());
     let event = Event { tick: tick + 1, robot, input };
     let script = Script { events: vec![event.clone()], ..Script::empty() };
-    // what is ignored forgets nothing
-    if !known || script.check().is_err() {
-        return;
+    let names = if known { vec![event.robot.as_str()] } else { Vec::new() };
+    if let Err(error) = script.check().and_then(|()| script.check_robots(&names)) {
+        world.resource_mut::<Refusals>().note(|| RefusedEvent::Command(error.clone()));
+        return Err(error.into());
     }
     if tick < frontier || looping {
         continue_from_here(world);
     }
     world.resource_mut::<PendingInput>().capture(event);
+    Ok(())
 }
 
 /// Forgets all input after the present tick.
@@ -141,7 +139,7 @@ fn continue_from_here(world: &mut World) {
 fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
     let Some(now) = recipe(world) else { return Ok(()) };
     undo::checkpoint_before_new_run(world);
-    let Transport { playback, speed, looping, .. } = *world.resource::<Transport>();
+    let &Transport { playback, speed, looping, .. } = world.resource::<Transport>();
     start_recipe(world, Recipe { seed, script: Script::empty(), ..now })?;
     let mut transport = world.resource_mut::<Transport>();
     *transport = Transport { playback, speed, looping, ..*transport };
@@ -150,7 +148,7 @@ fn restart(world: &mut World, seed: Seed) -> Result<(), SpawnError> {
 
 /// Carries out a transport command.
 pub(super) fn obey(world: &mut World, command: TransportCommand) -> Result<(), CommandError> {
-    let Transport { seed, tick, .. } = *world.resource::<Transport>();
+    let &Transport { seed, tick, .. } = world.resource::<Transport>();
     let pause = |world: &mut World| world.resource_mut::<Transport>().playback = Playback::Paused;
     match command {
         TransportCommand::Play => world.resource_mut::<Transport>().playback = Playback::Playing,

@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use super::{ChangeRefused, RestoreError, SpawnError};
+use super::{ChangeRefused, ForeignChange, RestoreError, RobotRefusal, SpawnError};
 use crate::run::ScriptError;
 
 /// Why a command could not be carried out. The run under way stays.
@@ -21,6 +21,18 @@ pub enum CommandError {
     /// A change of a world that a robot is in the way of.
     #[error(transparent)]
     Change(ChangeRefused),
+    /// An entity that is not taken as the robot that it says it is.
+    #[error("robot {name:?} (entity {entity}) {}: {reason}", if *.stays { "stays as it was" } else { "is left out" })]
+    NoRobot {
+        /// The entity.
+        entity: Entity,
+        /// The name that it gives itself.
+        name: String,
+        /// The reason.
+        reason: RobotRefusal,
+        /// Whether it stays in the run as it was. Otherwise it is no robot of the run.
+        stays: bool,
+    },
     /// An entity that no world file could hold as an obstacle.
     #[error("{name:?} is no obstacle that world {world:?} could have, and is left out")]
     NoObstacle {
@@ -29,14 +41,9 @@ pub enum CommandError {
         /// The name of the entity's shape.
         name: String,
     },
-    /// An obstacle that was changed past the script, in a run under way.
-    #[error(
-        "obstacle {name:?} was changed in a run under way: only the run's script changes obstacles, so this one stays"
-    )]
-    ObstacleInRun {
-        /// The obstacle's name.
-        name: String,
-    },
+    /// A change of the run's entities past its commands, in a run under way. It was put back.
+    #[error("{0}")]
+    Foreign(ForeignChange),
 }
 
 /// A command that could not be carried out, as a message to whoever shows the run.

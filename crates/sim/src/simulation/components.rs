@@ -142,7 +142,14 @@ pub struct SensorNoise(pub BeamModel);
 /// The ranges that a sensor of the run read at the end of the last tick, metres, one per ray; empty before the first
 /// scan. They are those of the frame, shared with it.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
-pub struct Scan(pub Arc<[f64]>);
+pub struct Scan(pub(crate) Arc<[f64]>);
+
+impl Scan {
+    /// The ranges.
+    pub fn ranges(&self) -> &Arc<[f64]> {
+        &self.0
+    }
+}
 
 /// A robot's id: its place in the run's list of robots. Wherever robots have an order, it is this one.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -161,37 +168,45 @@ pub struct RobotName {
     pub about: Option<&'static RobotKind>,
 }
 
+impl RobotName {
+    /// The name and the kind of a robot that is to be spawned. The run adds the kind's description.
+    pub fn new(name: impl Into<String>, kind: impl Into<String>) -> Self {
+        RobotName { name: name.into(), kind: kind.into(), about: None }
+    }
+}
+
 /// A robot's model: its dimensions and limits. It requires the rest of a robot's components.
+///
+/// Spawn one before tick 0, with a [`Configuration`], a [`RobotName`] and a [`ResidesIn`], and the run has the robot;
+/// replace it, write its configuration or its drive mode, or despawn it then, and the run follows.
 #[derive(Component, Clone, Debug, PartialEq)]
 #[component(immutable)]
 #[require(Control<R>, Contacts<R>, DriveMode<R>, OwnState<R>, TickMotion<R>, Cut<R>)]
 pub struct RobotModel<R: SimulatedRobot>(pub R);
 
-/// A robot's configuration.
+/// A robot's configuration. At tick 0 whoever writes it moves the robot; in a run it is put back.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct Configuration<R: SimulatedRobot>(pub R::Configuration);
 
 /// A robot's configuration before the last tick's motion, for drawing between ticks.
 #[derive(Component, Clone, Debug, PartialEq)]
-pub struct PreviousConfiguration<R: SimulatedRobot>(pub R::Configuration);
+pub struct PreviousConfiguration<R: SimulatedRobot>(pub(crate) R::Configuration);
 
 /// The tick's control as it takes effect, after limits and slip.
 #[derive(Component, Clone, Debug, PartialEq)]
-pub struct Control<R: SimulatedRobot>(pub R::Control);
+pub struct Control<R: SimulatedRobot>(pub(crate) R::Control);
 
 /// A robot's contacts.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
 pub struct Contacts<R: SimulatedRobot> {
-    /// Whether the last tick was in contact.
-    pub in_contact: bool,
-    /// Contact episodes since tick 0. An episode begins at a tick in contact after one that was not.
-    pub episodes: u32,
-    /// Ticks for which the flash still holds.
-    pub flash: u32,
+    pub(crate) in_contact: bool,
+    pub(crate) episodes: u32,
+    pub(crate) flash: u32,
     marker: std::marker::PhantomData<fn() -> R>,
 }
 
-/// Who drives a robot, and the input in force.
+/// Who drives a robot, and the input in force. At tick 0 one that is written becomes an input of tick 1; in a run it is
+/// put back.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct DriveMode<R: SimulatedRobot> {
     /// Whether a person drives instead of the tour.
@@ -207,8 +222,7 @@ pub struct DriveMode<R: SimulatedRobot> {
 /// A robot's own state beside its configuration.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct OwnState<R: SimulatedRobot> {
-    /// The numbers, in the order the kind documents.
-    pub extra: Extra,
+    pub(crate) extra: Extra,
     marker: std::marker::PhantomData<fn() -> R>,
 }
 
@@ -224,29 +238,28 @@ pub struct Slip(pub Stream);
 
 /// The current tick's motion; `None` when the control gives none.
 #[derive(Component, Debug)]
-pub struct TickMotion<R: SimulatedRobot>(pub Option<R::Drive>);
+pub struct TickMotion<R: SimulatedRobot>(pub(crate) Option<R::Drive>);
 
 /// How far the current tick's motion may go among the obstacles and the other robots' starting footprints.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct Cut<R: SimulatedRobot> {
-    /// The parameter of the motion at which it ends.
-    pub until: f64,
-    /// Whether the motion was blocked, or not proven free.
-    pub contact: bool,
+    pub(crate) until: f64,
+    pub(crate) contact: bool,
     /// What the motion and the cut follow from, for a robot alone in its world. With the same the cut is the same.
     /// `None` where other robots matter too.
-    pub of: Option<CutOf<R>>,
+    pub(crate) of: Option<CutOf<R>>,
 }
 
 /// What a robot's motion and its cut follow from, in a world without other robots.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CutOf<R: SimulatedRobot> {
+pub(crate) struct CutOf<R: SimulatedRobot> {
+    /// The robot, whose cut means nothing on another one.
+    pub(crate) robot: RobotId,
     /// The configuration at the start of the motion.
-    pub configuration: R::Configuration,
-    /// The control.
-    pub control: R::Control,
+    pub(crate) configuration: R::Configuration,
+    pub(crate) control: R::Control,
     /// The obstacles.
-    pub scene: SceneRevision,
+    pub(crate) scene: SceneRevision,
 }
 
 impl From<RangeSensor> for SensorModel {
@@ -256,23 +269,72 @@ impl From<RangeSensor> for SensorModel {
 }
 
 impl<R: SimulatedRobot> Contacts<R> {
-    /// Contacts with these counts.
-    pub fn new(in_contact: bool, episodes: u32, flash: u32) -> Self {
+    pub(crate) fn new(in_contact: bool, episodes: u32, flash: u32) -> Self {
         Contacts { in_contact, episodes, flash, marker: std::marker::PhantomData }
+    }
+
+    /// Whether the last tick was in contact.
+    pub fn in_contact(&self) -> bool {
+        self.in_contact
+    }
+
+    /// Contact episodes since tick 0. An episode begins at a tick in contact after one that was not.
+    pub fn episodes(&self) -> u32 {
+        self.episodes
+    }
+
+    /// Ticks for which the flash still holds.
+    pub fn flash(&self) -> u32 {
+        self.flash
+    }
+}
+
+impl<R: SimulatedRobot> Control<R> {
+    /// The control.
+    pub fn control(&self) -> &R::Control {
+        &self.0
+    }
+}
+
+impl<R: SimulatedRobot> PreviousConfiguration<R> {
+    /// The configuration.
+    pub fn configuration(&self) -> &R::Configuration {
+        &self.0
+    }
+}
+
+impl<R: SimulatedRobot> TickMotion<R> {
+    /// The motion.
+    pub fn motion(&self) -> Option<&R::Drive> {
+        self.0.as_ref()
     }
 }
 
 impl<R: SimulatedRobot> OwnState<R> {
-    /// The state with these numbers.
-    pub fn new(extra: Extra) -> Self {
+    pub(crate) fn new(extra: Extra) -> Self {
         OwnState { extra, marker: std::marker::PhantomData }
+    }
+
+    /// The numbers, in the order the kind documents.
+    pub fn extra(&self) -> &Extra {
+        &self.extra
     }
 }
 
 impl<R: SimulatedRobot> Cut<R> {
-    /// A cut at the parameter `until`, for no known configuration and control.
-    pub fn new(until: f64, contact: bool) -> Self {
+    /// A cut for no known configuration and control.
+    pub(crate) fn new(until: f64, contact: bool) -> Self {
         Cut { until, contact, of: None }
+    }
+
+    /// The parameter of the motion at which it ends.
+    pub fn until(&self) -> f64 {
+        self.until
+    }
+
+    /// Whether the motion was blocked, or not proven free.
+    pub fn contact(&self) -> bool {
+        self.contact
     }
 }
 

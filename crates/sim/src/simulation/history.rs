@@ -147,7 +147,7 @@ impl History {
             self.latest = self.samples.get(i).cloned();
             return;
         }
-        let states = &world.resource::<LatestFrame>().0.robots;
+        let states = &world.resource::<LatestFrame>().frame().robots;
         let are_many = states.len() > MAX_MEASURED;
         if are_many && self.samples.is_empty() && self.every < SECOND {
             self.every = SECOND;
@@ -227,7 +227,7 @@ fn measure(world: &World, robot: usize, trail: &mut Trail) {
 
 /// Adds the state just recorded to the history, if the app keeps one.
 pub(super) fn note_if_history(world: &mut World) {
-    if world.contains_resource::<History>() && !world.resource::<LatestFrame>().0.robots.is_empty() {
+    if world.contains_resource::<History>() && !world.resource::<LatestFrame>().frame().robots.is_empty() {
         world.resource_scope(|world, mut history: Mut<History>| history.note(world));
     }
 }

@@ -29,13 +29,14 @@ mod state;
 mod tests;
 mod tick;
 mod transport;
+mod truth;
 mod undo;
 
 pub use command::{RunCommand, WorldCommand};
 pub use command_error::{CommandError, CommandRefused};
 pub use components::{
-    Configuration, Contacts, Control, Cut, CutOf, Door, DrawnTour, DriveMode, MountedOn, ObstacleOf, ObstacleShape,
-    Obstacles, OwnState, Placement, PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Scan,
+    Configuration, Contacts, Control, Cut, Door, DrawnTour, DriveMode, MountedOn, ObstacleOf, ObstacleShape, Obstacles,
+    OwnState, Placement, PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel, RobotName, Scan,
     SceneRevision, SensorModel, SensorMount, SensorName, SensorNoise, Sensors, SimulatedWorld, Slip, StandingWorld,
     TickMotion, WorldScene,
 };
@@ -49,26 +50,30 @@ pub use plugin::{SimulationPlugin, headless_app};
 pub use restore_error::RestoreError;
 pub use robot::contact::{ContactBegan, ContactEnded};
 pub use robot::ops::RobotOps;
-pub use robot::plugin::{RobotKinds, RobotPlugin};
+pub use robot::plugin::RobotPlugin;
 pub use robot::refusal::InputRefusal;
+pub use robot::registry::RobotKinds;
 pub use robot::replicas::Replicas;
 pub use robot::simulated::{Extra, SimulatedRobot};
 pub use robot::view::RobotView;
 pub use roster::{Roster, footprint_of, view, view_of};
 pub use schedule::{SimulationSchedule, SimulationSystems};
-pub use seek::{play_tick, seek, step};
+pub use seek::{extend_frontier, play_tick, restore, seek, step};
 pub use sensors::refusal::{SensorRefusal, SensorRefused};
 pub use sensors::roster::SensorRoster;
-pub use sensors::start::take_sensors_at_start;
 pub use sensors::view::{SensorView, sensors, sensors_of};
-pub use spawn::{RunConfig, is_under_way, recipe, start_recipe, start_run};
+pub use spawn::{is_under_way, recipe, start_recipe, start_run};
 pub use spawn_error::SpawnError;
-pub use state::{restore, snapshot};
+pub use state::snapshot;
 pub use tick::hold::{Advance, HOLD_CLEARANCE, MARGIN, MIN_CLEARANCE, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::refusals::{Refusals, RefusedEvent, RefusedInput};
 pub use tick::settle::FLASH_TICKS;
 pub use transport::{Playback, Transport, TransportCommand};
+pub use truth::foreign_change::ForeignChange;
+pub use truth::robot_refusal::RobotRefusal;
+pub use truth::run_config::RunConfig;
+pub use truth::settle;
 pub use undo::{Undo, checkpoint, undoes};
 
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.

@@ -5,14 +5,17 @@ use bevy::prelude::*;
 
 use super::obstacles::change::RefusedChanges;
 use super::obstacles::roster::ObstacleRoster;
-use super::obstacles::watch::watch;
 use super::schedule::{CrowdSystems, TickPhase, simulation_schedule};
 use super::tick::world_crowds::WorldCrowds;
 use super::tick::{input, sense, world_crowds};
+use super::truth::touched::ForeignTouches;
+use super::truth::watch::watch_components;
 use super::{
-    CommandRefused, Keyframes, LatestFrame, PendingInput, Playback, Refusals, RobotKinds, RobotPlugin, RunCommand,
-    SensorRefused, SensorRoster, SimulationSchedule, SimulationSystems, Transport, Undo, command, play_tick, sensors,
-    state,
+    CommandRefused, Door, Keyframes, LatestFrame, MountedOn, ObstacleOf, ObstacleShape, PendingInput, Placement,
+    Playback, Refusals, ResidesIn, RobotId, RobotKinds, RobotName, RobotOps, RobotPlugin, RunCommand, Scan,
+    SceneRevision, SensorModel, SensorMount, SensorName, SensorNoise, SensorRefused, SensorRoster, SimulatedWorld,
+    SimulationSchedule, SimulationSystems, Slip, StandingWorld, Transport, Undo, WorldScene, command, play_tick,
+    settle, state,
 };
 use crate::run::DT;
 use motion_lab_core::configuration::RobotKind;
@@ -34,20 +37,19 @@ impl Plugin for SimulationPlugin {
             .init_resource::<WorldCrowds>()
             .init_resource::<PendingInput>()
             .init_resource::<Keyframes>()
-            .init_resource::<LatestFrame>()
+            .insert_resource(LatestFrame::of_no_run())
             .init_resource::<state::TakenStates>()
             .init_resource::<Undo>()
             .init_resource::<ObstacleRoster>()
             .init_resource::<RefusedChanges>()
             .init_resource::<Refusals>()
-            .init_resource::<SensorRoster>()
+            .insert_resource(SensorRoster::none())
+            .init_resource::<ForeignTouches>()
             .insert_resource(Transport::new(Seed(0)))
             .insert_resource(Time::<Fixed>::from_seconds(DT))
             .add_message::<RunCommand>()
             .add_message::<CommandRefused>()
             .add_message::<SensorRefused>()
-            .add_observer(sensors::changed)
-            .add_observer(sensors::removed)
             .add_systems(
                 SimulationSchedule,
                 (
@@ -61,8 +63,9 @@ impl Plugin for SimulationPlugin {
             )
             .add_systems(RunFixedMainLoop, command::carry_out.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))
             .add_systems(RunFixedMainLoop, command::report_changes.in_set(RunFixedMainLoopSystems::AfterFixedMainLoop))
-            .add_systems(FixedUpdate, run_while_playing);
-        watch(app);
+            .add_systems(FixedUpdate, run_while_playing)
+            .add_systems(Last, settle);
+        watch(app.world_mut());
         app.add_plugins((
             RobotPlugin::new(RobotKind::RUSTY.name, RUSTY),
             RobotPlugin::new(RobotKind::REACH.name, Reach::<2>::workbench()),
@@ -70,6 +73,14 @@ impl Plugin for SimulationPlugin {
             RobotPlugin::new(RobotKind::HITCH.name, HITCH),
         ));
     }
+}
+
+/// Watches the components of the run's entities that all robots have alike.
+fn watch(world: &mut World) {
+    watch_components!(world, SimulatedWorld, WorldScene, SceneRevision, StandingWorld);
+    watch_components!(world, ObstacleShape, Placement, Door, ObstacleOf);
+    watch_components!(world, RobotId, RobotName, ResidesIn, RobotOps, Slip);
+    watch_components!(world, SensorModel, SensorName, SensorMount, SensorNoise, MountedOn, Scan);
 }
 
 /// An app without a window: Bevy's `MinimalPlugins` and the [`SimulationPlugin`]. Everything else is yours to add:
@@ -92,7 +103,7 @@ impl Plugin for SimulationPlugin {
 /// // a tick is 50 ms; the first update is where time begins
 /// app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(50)));
 /// (0..=10).for_each(|_| app.update());
-/// assert_eq!(app.world().resource::<LatestFrame>().0.tick, 10);
+/// assert_eq!(app.world().resource::<LatestFrame>().frame().tick, 10);
 /// # Ok::<(), motion_lab_sim::simulation::SpawnError>(())
 /// ```
 pub fn headless_app() -> App {
@@ -102,7 +113,7 @@ pub fn headless_app() -> App {
 }
 
 fn run_while_playing(world: &mut World) {
-    let Transport { playback, speed, .. } = *world.resource::<Transport>();
+    let &Transport { playback, speed, .. } = world.resource::<Transport>();
     if playback == Playback::Playing && speed.is_finite() {
         play_tick(world);
     }

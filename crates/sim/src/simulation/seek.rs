@@ -3,23 +3,27 @@
 use bevy::prelude::*;
 
 use super::obstacles::change::RefusedChanges;
-use super::obstacles::start::settle_start;
 use super::robot::contact;
-use super::sensors::start::fix_sensors;
-use super::{Keyframes, RestoreError, SimulationSchedule, Transport, restore};
+use super::truth::leave_start;
+use super::truth::settle;
+use super::truth::touched::at_work;
+use super::{Keyframes, RestoreError, SimulationSchedule, Transport, state::put_frame};
+use crate::run::Frame;
 
-/// Runs one tick. Before the first, obstacles that were changed from outside become those of the run, and its sensors
-/// are fixed. After it, the contacts that began or ended in it are triggered as [`ContactBegan`](super::ContactBegan)
+/// Runs one tick. Before the first, the run becomes that of its entities; before a later one, what others have changed
+/// of them is put back ([`settle`](super::settle)). After it, the contacts that began or ended in it are triggered as [`ContactBegan`](super::ContactBegan)
 /// and [`ContactEnded`](super::ContactEnded).
 pub fn step(world: &mut World) {
+    settle(world);
     contact::with_events(world, advance);
 }
 
 /// Runs one tick and triggers nothing.
 fn advance(world: &mut World) {
-    settle_start(world);
-    fix_sensors(world);
-    world.run_schedule(SimulationSchedule);
+    if world.resource::<Transport>().tick == 0 {
+        leave_start(world);
+    }
+    at_work(world, |world| world.run_schedule(SimulationSchedule));
 }
 
 /// Moves the run to `tick`. It restores the last keyframe at or before `tick` if the run stands
@@ -28,7 +32,7 @@ fn advance(world: &mut World) {
 /// # Errors
 /// [`RestoreError`] when the keyframe does not fit the run. Only a frame from elsewhere could cause that.
 pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
-    settle_start(world);
+    settle(world);
     let now = world.resource::<Transport>().tick;
     let keyframe = world.resource::<Keyframes>().before(tick).filter(|f| tick < now || f.tick > now);
     if let Some(frame) = keyframe.cloned() {
@@ -42,9 +46,27 @@ pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     Ok(())
 }
 
+/// Says that the run is known to have reached a tick before, as one that is brought back from a file: it lies within its
+/// frontier.
+pub fn extend_frontier(world: &mut World, tick: u64) {
+    let mut transport = world.resource_mut::<Transport>();
+    transport.frontier = std::cmp::max(transport.frontier, tick);
+}
+
+/// Puts the simulation into the state of `frame`, overwriting components. The ticks after it repeat
+/// bit for bit. The scans are taken anew, which gives the frame's own.
+///
+/// # Errors
+/// [`RestoreError`] when the frame is not one of this run. The robots before the one named are overwritten
+/// all the same.
+pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
+    settle(world);
+    at_work(world, |world| put_frame(world, frame))
+}
+
 /// Runs the next tick of a run that plays. A looping run at its frontier begins again at tick 0.
 pub fn play_tick(world: &mut World) {
-    let Transport { tick, frontier, looping, .. } = *world.resource::<Transport>();
+    let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     if looping && tick >= frontier && frontier > 0 {
         // tick 0 is always kept
         let _ = seek(world, 0);

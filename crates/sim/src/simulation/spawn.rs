@@ -4,21 +4,20 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::obstacles::roster::{self, WorldObstacles, at_work};
-use super::robot::spawn::{SpawnRequest, routes};
+use super::obstacles::roster::{self, WorldObstacles};
+use super::robot::spawn::{RobotEntities, spawn_robots};
 use super::tick::world_crowds::WorldCrowds;
+use super::truth::run_config::RunConfig;
+use super::truth::thing::RunThing;
+use super::truth::touched::{ForeignTouches, at_work};
 use super::{
-    History, Keyframes, LatestFrame, PendingInput, Refusals, RobotId, RobotKinds, Roster, SceneRevision,
-    SimulatedWorld, SpawnError, StandingWorld, Transport, WorldScene, sensors, state, tick,
+    History, Keyframes, LatestFrame, PendingInput, Refusals, Roster, SceneRevision, SimulatedWorld, SpawnError,
+    StandingWorld, Transport, WorldScene, sensors, state, tick,
 };
 use crate::run::{Recipe, RunInput};
-use crate::tour::{RouteTours, TourConfig};
+use crate::tour::TourConfig;
 use motion_lab_core::collision::Scene;
-use motion_lab_core::worlds::{Resident, World as WorldModel};
-
-/// The configuration of the run under way.
-#[derive(Resource, Clone, Debug)]
-pub struct RunConfig(pub Arc<TourConfig>);
+use motion_lab_core::worlds::World as WorldModel;
 
 /// The recipe of the run under way, its script as far as it is known; `None` before the first run.
 pub fn recipe(world: &World) -> Option<Recipe> {
@@ -34,11 +33,10 @@ pub fn is_under_way(world: &World, recipe: &Recipe) -> bool {
         && *world.resource::<PendingInput>().script() == recipe.script
 }
 
-fn spawn_world(world: &mut World, index: u32, model: &WorldModel) -> Entity {
+fn spawn_world(world: &mut World, index: usize, model: &WorldModel) -> Entity {
     let (scene, model) = (WorldScene(Arc::new(Scene::of_world(model))), Arc::new(model.clone()));
-    world
-        .spawn((SimulatedWorld { index, model: Arc::clone(&model) }, StandingWorld(model), scene, SceneRevision(0)))
-        .id()
+    let at = SimulatedWorld { index: index as u32, model: Arc::clone(&model) };
+    world.spawn((at, StandingWorld(model), scene, SceneRevision(0), RunThing::World(index))).id()
 }
 
 /// Starts a run in `world`, in place of the one under way: spawns everything and takes frame 0. The new run is paused.
@@ -64,61 +62,32 @@ pub fn start_recipe(world: &mut World, recipe: Recipe) -> Result<(), SpawnError>
 
 /// [`start_run`] with the robots spawned in this order of their ids, which changes nothing.
 pub(super) fn start_run_in_order(world: &mut World, recipe: Recipe, order: &[usize]) -> Result<(), SpawnError> {
+    at_work(world, |world| begin(world, recipe, order))
+}
+
+fn begin(world: &mut World, recipe: Recipe, order: &[usize]) -> Result<(), SpawnError> {
     let Recipe { seed, config, script } = recipe;
-    let residents: Vec<(usize, &Resident)> =
-        config.worlds.iter().enumerate().flat_map(|(i, w)| w.robots.iter().map(move |r| (i, r))).collect();
     config.validate()?;
     script.check()?;
     script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
     script.check_worlds(&config.worlds)?;
-    let routes: Vec<RouteTours> = config.worlds.iter().map(|w| routes(w, seed)).collect::<Result<_, _>>()?;
-    let worlds: Vec<Entity> =
-        config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i as u32, model)).collect();
-    let mut spawned: Vec<(RobotId, Entity)> = Vec::new();
-    for &i in order {
-        let (w, resident) = residents[i];
-        let model = &config.worlds[w];
-        let id = RobotId(i as u32);
-        let about = world.get_resource::<RobotKinds>().and_then(|k| k.about(&resident.kind));
-        let request = SpawnRequest {
-            seed,
-            id,
-            world: worlds[w],
-            model,
-            resident,
-            sensor: config.sensor,
-            routes: &routes[w],
-            about,
-        };
-        let spawner = world.get_resource::<RobotKinds>().and_then(|k| k.spawner(&resident.kind));
-        let robot = match spawner {
-            Some(spawn) => spawn(world, &request),
-            None => Err(SpawnError::UnknownKind {
-                robot: resident.name.clone(),
-                world: model.name.clone(),
-                kind: resident.kind.clone(),
-            }),
-        };
-        match robot {
-            Ok(entity) => spawned.push((id, entity)),
-            Err(e) => {
-                worlds.iter().for_each(|&w| _ = world.despawn(w));
-                return Err(e);
-            }
-        }
-    }
-    spawned.sort_unstable_by_key(|(id, _)| *id);
-    let robots: Vec<Entity> = spawned.into_iter().map(|(_, e)| e).collect();
-    let names = residents.iter().map(|(_, resident)| resident.name.clone()).zip(robots.iter().copied()).collect();
+    let worlds: Vec<Entity> = config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i, model)).collect();
+    let spawned = spawn_robots(world, (&config, seed), (&worlds, &RobotEntities::none(&config)), order);
+    let robots = spawned.inspect_err(|_| worlds.iter().for_each(|&w| _ = world.despawn(w)))?;
+    let names = config.robot_names().map(str::to_owned).zip(robots.iter().copied()).collect();
     let roster = Roster { worlds, robots, names };
-    let old = world.remove_resource::<Roster>();
-    let grounds = at_work(world, |world, _| {
-        old.iter().flat_map(|old| &old.worlds).for_each(|&w| _ = world.despawn(w));
-        let model = |world: &World, w| world.get::<SimulatedWorld>(w).map(|w| Arc::clone(&w.model));
-        let ground = |&w: &Entity| model(world, w).map(|model| WorldObstacles::spawn(world, w, model));
-        roster.worlds.iter().filter_map(ground).collect()
-    });
+    for w in world.remove_resource::<Roster>().into_iter().flat_map(|old| old.worlds) {
+        world.despawn(w);
+    }
+    let mut grounds = Vec::new();
+    for (number, &w) in roster.worlds.iter().enumerate() {
+        let start = world.get::<SimulatedWorld>(w).map(|w| Arc::clone(&w.model));
+        let mut ground = start.map(|start| WorldObstacles::new(w, number, start, &[]));
+        ground.iter_mut().for_each(|ground| ground.dress_all(world));
+        grounds.extend(ground.map(WorldObstacles::fresh));
+    }
     world.insert_resource(roster);
+    world.resource_mut::<ForeignTouches>().entities.clear();
     roster::begin(world, grounds);
     roster::sync_added(world, &script.changes);
     world.insert_resource(WorldCrowds::new(config.worlds.iter().map(|w| w.robots.len())));
@@ -127,7 +96,7 @@ pub(super) fn start_run_in_order(world: &mut World, recipe: Recipe, order: &[usi
     world.insert_resource(PendingInput::new(script));
     world.insert_resource(Keyframes::default());
     world.insert_resource(Refusals::default());
-    world.insert_resource(LatestFrame::default());
+    world.insert_resource(LatestFrame::of_no_run());
     if world.contains_resource::<History>() {
         world.insert_resource(History::default());
     }

@@ -13,7 +13,8 @@ use crate::run::Frame;
 /// The state of the simulation now: the canonical form, the same for equal states. The scans are those of the latest
 /// frame.
 pub fn snapshot(world: &World) -> Frame {
-    let mut frame = world.get_resource::<LatestFrame>().map_or_else(LatestFrame::default, Clone::clone).0;
+    let mut frame =
+        world.get_resource::<LatestFrame>().map_or_else(|| LatestFrame::of_no_run().0, |latest| latest.0.clone());
     snapshot_robots(world, &mut frame);
     snapshot_rest(world, &mut frame);
     frame
@@ -59,7 +60,7 @@ pub(crate) fn encode<R: SimulatedRobot>(
 /// Takes the frame of the tick, with the states that its robots and its sensors have written.
 pub(super) fn record(world: &mut World) {
     let taken = std::mem::take(&mut world.resource_mut::<TakenStates>().0);
-    let mut frame = std::mem::take(&mut *world.resource_mut::<LatestFrame>()).0;
+    let mut frame = std::mem::replace(&mut *world.resource_mut::<LatestFrame>(), LatestFrame::of_no_run()).0;
     let robots = world.get_resource::<Roster>().map_or(0, |roster| roster.robots().len());
     if taken != robots || frame.robots.len() != robots {
         snapshot_robots(world, &mut frame);
@@ -70,13 +71,8 @@ pub(super) fn record(world: &mut World) {
     super::history::note_if_history(world);
 }
 
-/// Puts the simulation into the state of `frame`, overwriting components; nothing is spawned. The ticks after it repeat
-/// bit for bit. The scans are taken anew, which gives the frame's own.
-///
-/// # Errors
-/// [`RestoreError`] when the frame is not one of this run. The robots before the one named are overwritten
-/// all the same.
-pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
+/// Puts the simulation into the state of a frame, without looking at what others have changed.
+pub(super) fn put_frame(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
     let robots: Vec<Entity> = world.get_resource::<Roster>().map_or_else(Vec::new, |r| r.robots().to_vec());
     let tick = frame.tick;
     if robots.len() != frame.robots.len() {

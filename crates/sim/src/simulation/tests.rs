@@ -55,7 +55,7 @@ fn run_in(app: &mut App, order: &[usize]) -> Vec<Frame> {
     (0..120)
         .map(|_| {
             step(app.world_mut());
-            app.world().resource::<LatestFrame>().0.clone()
+            app.world().resource::<LatestFrame>().frame().clone()
         })
         .collect()
 }

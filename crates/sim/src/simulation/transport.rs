@@ -14,26 +14,39 @@ pub enum Playback {
     Paused,
 }
 
-/// The tick at which the run stands, and how it plays.
-#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+/// The tick at which the run stands, and how it plays. Whoever shows the run may write how it plays; seed, tick and
+/// frontier are the simulation's, and change by a [`TransportCommand`].
+#[derive(Resource, Debug, PartialEq)]
 pub struct Transport {
-    /// The run's seed.
-    pub seed: Seed,
-    /// The last tick done; 0 at the start.
-    pub tick: u64,
+    pub(crate) seed: Seed,
+    pub(crate) tick: u64,
     /// Whether it plays.
     pub playback: Playback,
     /// Simulated seconds per second of the clock, above 0; infinite for as fast as possible.
     pub speed: f64,
     /// Whether playing begins anew at tick 0 when it has come to the frontier.
     pub looping: bool,
-    /// The last tick that this run has reached, even if it was taken back since.
-    pub frontier: u64,
+    pub(crate) frontier: u64,
 }
 
 impl Transport {
+    /// The run's seed.
+    pub fn seed(&self) -> Seed {
+        self.seed
+    }
+
+    /// The last tick done; 0 at the start.
+    pub fn tick(&self) -> u64 {
+        self.tick
+    }
+
+    /// The last tick that this run has reached, even if it was taken back since.
+    pub fn frontier(&self) -> u64 {
+        self.frontier
+    }
+
     /// The start of a run, paused, at normal speed.
-    pub fn new(seed: Seed) -> Self {
+    pub(crate) fn new(seed: Seed) -> Self {
         Transport { seed, tick: 0, playback: Playback::Paused, speed: 1.0, looping: false, frontier: 0 }
     }
 }

@@ -26,7 +26,7 @@ struct Checkpoint {
 
 impl Checkpoint {
     fn of(world: &World) -> Option<Self> {
-        let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+        let &Transport { tick, frontier, .. } = world.resource::<Transport>();
         Some(Checkpoint { recipe: recipe(world)?, tick, frontier, ends: false })
     }
 
@@ -119,7 +119,7 @@ fn travel(
 
 fn apply(world: &mut World, then: Checkpoint) -> Result<(), CommandError> {
     let Checkpoint { recipe, tick, frontier, .. } = then;
-    let Transport { seed: present, speed, looping, .. } = *world.resource::<Transport>();
+    let &Transport { seed: present, speed, looping, .. } = world.resource::<Transport>();
     let same_run =
         world.get_resource::<RunConfig>().is_some_and(|c| Arc::ptr_eq(&c.0, &recipe.config)) && recipe.seed == present;
     if same_run {
@@ -236,7 +236,7 @@ mod tests {
         let before = state(&mut app);
         for new in [TransportCommand::Reset, TransportCommand::ReRoll, TransportCommand::SetSeed(Seed(7))] {
             command(&mut app, new);
-            assert_eq!(app.world().resource::<LatestFrame>().0.tick, 0);
+            assert_eq!(app.world().resource::<LatestFrame>().frame().tick, 0);
             command(&mut app, TransportCommand::Undo);
             assert_eq!(state(&mut app), before, "{new:?}");
         }

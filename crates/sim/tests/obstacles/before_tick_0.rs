@@ -25,7 +25,7 @@ fn frames(world: &mut Ecs, ticks: u64) -> Vec<Frame> {
     let mut frames = Vec::new();
     for _ in 0..ticks {
         step(world);
-        frames.push(world.resource::<LatestFrame>().0.clone());
+        frames.push(world.resource::<LatestFrame>().frame().clone());
     }
     frames
 }
@@ -127,7 +127,7 @@ fn what_is_spawned_moved_and_removed_is_what_robots_meet() {
         );
         assert_eq!(found, expected.frames());
         assert!(found.iter().all(|f| y(f) > 5.6), "held above the upper bar");
-        let config = world.resource::<RunConfig>().0.clone();
+        let config = world.resource::<RunConfig>().config().clone();
         assert_eq!(config.worlds, expected.recipe.config.worlds, "and the run's own configuration says so");
     }
     assert!(recorded(|_| {}, 400).frames().iter().any(|f| y(f) < 5.3), "without the bars it drives on");
@@ -161,7 +161,7 @@ fn in_a_run_a_change_from_outside_has_no_effect_and_is_refused_aloud() {
     let mut found = frames(world, 20);
     let apartment = apartment_entity(world);
     world.despawn(find(world, "the outer wall"));
-    world.spawn((bar("bar", 5.5), ObstacleOf(apartment)));
+    let bar_entity = world.spawn((bar("bar", 5.5), ObstacleOf(apartment))).id();
     let door = find(world, DOOR);
     world.entity_mut(door).insert(Placement::default());
     found.extend(frames(world, 40));
@@ -170,11 +170,17 @@ fn in_a_run_a_change_from_outside_has_no_effect_and_is_refused_aloud() {
         .resource_mut::<bevy::prelude::Messages<CommandRefused>>()
         .drain()
         .map(|CommandRefused(error)| match error {
-            CommandError::ObstacleInRun { name } => name,
+            CommandError::Foreign(change) => format!("{} {}", change.thing, change.component),
             other => panic!("{other}"),
         })
         .collect();
-    for name in ["the outer wall", "bar", DOOR] {
-        assert!(refused.iter().any(|n| n == name), "{name}: {refused:?}");
-    }
+    let expected = [
+        "obstacle \"the outer wall\" in world \"Apartment\" ".to_owned(),
+        "obstacle \"bar\" ObstacleShape".to_owned(),
+        format!("obstacle {DOOR:?} in world \"Apartment\" Placement"),
+    ];
+    assert_eq!(refused, expected);
+    assert!(world.get_entity(bar_entity).is_ok_and(|bar| !bar.contains::<ObstacleShape>()), "the entity stays");
+    assert!(!world.get::<Placement>(door).unwrap().present, "the door is open, as the run has it");
+    find(world, "the outer wall");
 }

@@ -24,13 +24,13 @@ fn send(app: &mut App, change: WorldChange) {
 }
 
 fn run_to(app: &mut App, tick: u64) {
-    while app.world().resource::<Transport>().tick < tick {
+    while app.world().resource::<Transport>().tick() < tick {
         step(app.world_mut());
     }
 }
 
 fn frame(app: &App) -> Frame {
-    app.world().resource::<LatestFrame>().0.clone()
+    app.world().resource::<LatestFrame>().frame().clone()
 }
 
 fn script(app: &App) -> Script {
@@ -87,7 +87,7 @@ fn of_several_changes_of_a_door_in_a_tick_the_last_wins() {
     seek(app.world_mut(), 3).unwrap();
     send(&mut app, WorldChange::Remove("A's bed".into()));
     assert_eq!(script(&app), changes(&[(4, WorldChange::Remove("A's bed".into()))]));
-    assert_eq!(app.world().resource::<Transport>().frontier, 3, "what came later is forgotten");
+    assert_eq!(app.world().resource::<Transport>().frontier(), 3, "what came later is forgotten");
 }
 
 #[test]

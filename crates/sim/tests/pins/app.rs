@@ -30,11 +30,11 @@ impl<'a> Played<'a> {
     }
 
     fn tick(&self) -> u64 {
-        self.app.world().resource::<Transport>().tick
+        self.app.world().resource::<Transport>().tick()
     }
 
     fn frame(&self) -> Frame {
-        self.app.world().resource::<LatestFrame>().0.clone()
+        self.app.world().resource::<LatestFrame>().frame().clone()
     }
 
     fn send(&mut self, command: impl Into<RunCommand>) {

@@ -110,7 +110,7 @@ fn branched() -> Log {
     app.add_plugins((bevy::prelude::MinimalPlugins, SimulationPlugin));
     start_run(app.world_mut(), config.clone(), Seed(100)).unwrap();
     app.insert_resource(bevy::time::TimeUpdateStrategy::ManualDuration(std::time::Duration::ZERO));
-    let frame = |app: &App| app.world().resource::<LatestFrame>().0.clone();
+    let frame = |app: &App| app.world().resource::<LatestFrame>().frame().clone();
     let initial = frame(&app);
     let drive = |app: &mut App, robot: &str, input| {
         app.world_mut().write_message(RunCommand::from(RobotCommand { robot: robot.into(), input }));

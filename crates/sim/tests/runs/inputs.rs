@@ -60,7 +60,7 @@ fn captured(app: &App) -> Vec<(u64, &str, [i16; 2])> {
 /// Checks how far ahead the cars are, in ticks at full speed.
 #[track_caller]
 fn assert_gone(app: &App, expected: [f64; 2]) {
-    let frame = &app.world().resource::<LatestFrame>().0;
+    let frame = app.world().resource::<LatestFrame>().frame();
     for (robot, ticks) in frame.robots.iter().zip(expected) {
         let x = robot.configuration[0];
         assert!((x - ticks * FULL).abs() < 1e-12, "robot {}: {} ticks, not {ticks}", robot.id, x / FULL);
@@ -189,7 +189,7 @@ fn what_no_script_can_hold_forgets_nothing() {
     press(&mut app, "nobody", 128, 0);
     press(&mut app, "a", 300, 0);
     app.update();
-    assert_eq!(app.world().resource::<Transport>().frontier, 40);
+    assert_eq!(app.world().resource::<Transport>().frontier(), 40);
     assert_eq!(captured(&app), [(30, "a", [128, 0])]);
     step(&mut app, 21);
     assert_gone(&app, [11.0, 0.0]);
@@ -218,7 +218,8 @@ fn input_at_the_frontier_of_a_looping_run_is_lived_through() {
     for _ in 0..4 {
         app.update();
     }
-    let Transport { tick, frontier, looping, .. } = *app.world().resource::<Transport>();
+    let transport = app.world().resource::<Transport>();
+    let (tick, frontier, looping) = (transport.tick(), transport.frontier(), transport.looping);
     assert!(!looping && tick == frontier && tick > 6, "it does not begin again: {tick} of {frontier}");
     assert_gone(&app, [tick as f64 - 5.0, 0.0]);
 }
@@ -254,6 +255,6 @@ fn commands_are_carried_out_in_the_order_they_were_written() {
     }
     app.update();
     assert_eq!(captured(&app), [(4, "a", [128, 0]), (5, "a", [-64, 0])]);
-    assert_eq!(app.world().resource::<Transport>().tick, 6);
+    assert_eq!(app.world().resource::<Transport>().tick(), 6);
     assert_gone(&app, [1.0 - 2.0 * 0.5, 0.0]);
 }

@@ -79,7 +79,7 @@ fn drive(app: &mut App, robot: &str, input: RobotInput) {
 }
 
 fn frame(app: &App) -> &Frame {
-    &app.world().resource::<LatestFrame>().0
+    app.world().resource::<LatestFrame>().frame()
 }
 
 fn inputs_of(app: &App) -> &[Event] {
@@ -162,7 +162,8 @@ fn what_is_undone_and_done_again_is_the_run_of_its_script_at_every_tick() {
         (TransportCommand::Undo, &first, inputs(), 330),
     ] {
         send(&mut app, command);
-        let Transport { tick, frontier, .. } = *app.world().resource::<Transport>();
+        let transport = app.world().resource::<Transport>();
+        let (tick, frontier) = (transport.tick(), transport.frontier());
         assert_eq!((tick, frontier), (stands_at, 330), "{command:?}");
         assert_eq!(inputs_of(&app), events, "{command:?}");
         // the history of the ticks ahead and behind is of this run too

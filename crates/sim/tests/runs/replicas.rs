@@ -88,7 +88,7 @@ fn replicas_give_the_bits_of_recorded_runs() {
         }
         replicas.step();
     }
-    assert!(replicas.contacts(0).episodes > 0 && replicas.contacts(1).episodes == 0);
+    assert!(replicas.contacts(0).episodes() > 0 && replicas.contacts(1).episodes() == 0);
 
     // one begins anew, the others go on
     replicas.reset(1, Seed(7)).unwrap();

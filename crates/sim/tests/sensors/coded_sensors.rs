@@ -12,8 +12,8 @@ use motion_lab_sim::recording::{Recorder, Run, verify, verify_with_robots};
 use motion_lab_sim::run::Log;
 use motion_lab_sim::simulation::{
     MountedOn, RobotName, Roster, RunCommand, RunConfig, SensorModel, SensorMount, SensorName, SensorNoise,
-    SensorRefusal, SensorRoster, Sensors, StandingWorld, TransportCommand, headless_app, sensors, start_run, step,
-    take_sensors_at_start,
+    SensorRefusal, SensorRoster, Sensors, StandingWorld, TransportCommand, headless_app, sensors, settle, start_run,
+    step,
 };
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
@@ -108,7 +108,7 @@ fn sensor(world: &Ecs, robot: usize, name: &str) -> Entity {
 #[track_caller]
 fn runs_as(app: &mut App, expected: &TourConfig) {
     let ran = run_to(app, expected.ticks);
-    let config = TourConfig::clone(&app.world().resource::<RunConfig>().0);
+    let config = TourConfig::clone(app.world().resource::<RunConfig>().config());
     assert_eq!(config, *expected);
     let log = Run::record(config, BOOK_SEED).unwrap();
     assert_eq!(log.frames(), ran);
@@ -226,14 +226,14 @@ fn a_robot_has_no_more_sensors_than_a_file_may_say() {
     for i in (0..MAX_SENSORS + 2).rev() {
         app.world_mut().spawn((SensorModel::from(FIVE), SensorName(format!("s{i:02}")), MountedOn(it)));
     }
-    take_sensors_at_start(app.world_mut());
+    settle(app.world_mut());
     let names: Vec<String> = sensors(app.world()).into_iter().map(|view| view.name).collect();
     let expected: Vec<String> = (0..MAX_SENSORS).map(|i| format!("s{i:02}")).collect();
     assert_eq!((names[0].as_str(), &names[1..]), ("", &expected[..]));
     let refused = app.world().resource::<SensorRoster>().refused();
     assert_eq!(refused.iter().map(|r| r.sensor.as_str()).collect::<Vec<_>>(), ["s64", "s65"]);
     assert!(refused.iter().all(|r| r.reason == SensorRefusal::TooMany));
-    let config = TourConfig::clone(&app.world().resource::<RunConfig>().0);
+    let config = TourConfig::clone(app.world().resource::<RunConfig>().config());
     assert_eq!(config.validate(), Ok(()));
     run_to(&mut app, 2);
     assert_eq!(Run::record(config, BOOK_SEED).unwrap().frames()[1], latest(&app));

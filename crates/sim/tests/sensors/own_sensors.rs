@@ -12,7 +12,7 @@ use motion_lab_sim::recording::{Recorder, Run, verify};
 use motion_lab_sim::run::{Frame, Log};
 use motion_lab_sim::simulation::{
     LatestFrame, MountedOn, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, SensorRefusal,
-    SensorRoster, SimulationPlugin, SpawnError, Transport, seek, sensors, start_run, step, take_sensors_at_start,
+    SensorRoster, SimulationPlugin, SpawnError, Transport, seek, sensors, settle, start_run, step,
 };
 use motion_lab_sim::tour::{BOOK_SEED, ConfigError, TourConfig};
 
@@ -94,13 +94,13 @@ pub fn app(config: TourConfig) -> App {
 }
 
 pub fn latest(app: &App) -> Frame {
-    app.world().resource::<LatestFrame>().0.clone()
+    app.world().resource::<LatestFrame>().frame().clone()
 }
 
 /// Steps to a tick, and returns the frames from the next one on.
 pub fn run_to(app: &mut App, tick: u64) -> Vec<Frame> {
     let mut frames = Vec::new();
-    while app.world().resource::<Transport>().tick < tick {
+    while app.world().resource::<Transport>().tick() < tick {
         step(app.world_mut());
         frames.push(latest(app));
     }
@@ -134,18 +134,20 @@ fn sensors_from_code_are_those_of_a_file_whatever_the_order_of_spawning() {
                 world.spawn((SensorModel(rays), name, mount, noise, MountedOn(car)));
             }
         }
-        take_sensors_at_start(app.world_mut());
+        settle(app.world_mut());
         assert_eq!(latest(&app), expected[0], "frame 0 is taken anew");
         assert_eq!(run_to(&mut app, 30), expected[1..], "spawned in the order {order:?}");
         let entities: Vec<_> = app.world().resource::<SensorRoster>().entities().collect();
-        let scans = entities.iter().map(|&e| app.world().get::<Scan>(e).unwrap().0.clone());
+        let scans = entities.iter().map(|&e| app.world().get::<Scan>(e).unwrap().ranges().clone());
         assert!(scans.eq(expected[30].scans.iter().map(|scan| scan.ranges.clone())), "each has its own scan");
         // the frame has the same memory, and the next tick fills it again where nobody else holds it
-        let frame = &app.world().resource::<LatestFrame>().0;
+        let frame = app.world().resource::<LatestFrame>().frame();
         let places: Vec<_> = frame.scans.iter().map(|scan| scan.ranges.as_ptr()).collect();
-        assert!(entities.iter().map(|&e| app.world().get::<Scan>(e).unwrap().0.as_ptr()).eq(places.iter().copied()));
+        assert!(
+            entities.iter().map(|&e| app.world().get::<Scan>(e).unwrap().ranges().as_ptr()).eq(places.iter().copied())
+        );
         step(app.world_mut());
-        let frame = &app.world().resource::<LatestFrame>().0;
+        let frame = app.world().resource::<LatestFrame>().frame();
         assert!(frame.scans.iter().map(|scan| scan.ranges.as_ptr()).eq(places));
         seek(app.world_mut(), 7).unwrap();
         assert_eq!(latest(&app), expected[7]);
@@ -192,7 +194,7 @@ fn from_the_first_tick_on_sensors_are_fixed_and_a_change_is_refused() {
     assert_eq!(run_to(&mut app, 8), expected[4..9]);
     // nor do they come in when the run is taken back
     seek(app.world_mut(), 0).unwrap();
-    take_sensors_at_start(app.world_mut());
+    settle(app.world_mut());
     assert_eq!(latest(&app), expected[0]);
     assert_eq!(run_to(&mut app, 12), expected[1..13]);
     // another run has the sensors of its own world, and nothing is refused
@@ -225,7 +227,7 @@ fn sensors_that_cannot_be_are_refused_and_the_others_stay() {
     world.spawn((SensorModel::from(good), named("twice"), MountedOn(car)));
     world.spawn((SensorModel::from(good), named("twice"), MountedOn(car)));
     world.spawn((SensorModel::from(good), MountedOn(car))); // without a name, on a robot to which no run gives one
-    take_sensors_at_start(world);
+    settle(world);
     let names: Vec<String> = sensors(world).into_iter().map(|view| view.name).collect();
     assert_eq!(names, ["ahead"]);
     let refused = world.resource::<SensorRoster>().refused();

@@ -6,7 +6,7 @@ use bevy::app::App;
 use bevy::prelude::MinimalPlugins;
 use bevy::time::TimeUpdateStrategy;
 use motion_lab_core::prelude::*;
-use motion_lab_sim::recording::Run;
+use motion_lab_sim::recording::{Recorder, Run};
 use motion_lab_sim::run::RobotInput;
 use motion_lab_sim::simulation::{
     LatestFrame, PendingInput, Playback, RobotCommand, RunCommand, SimulationPlugin, Transport, TransportCommand,
@@ -41,7 +41,7 @@ fn frame_rates_and_stalls_change_no_bit() {
         for ms in frames_ms.iter().cycle() {
             app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(*ms)));
             app.update();
-            let frame = &app.world().resource::<LatestFrame>().0;
+            let frame = app.world().resource::<LatestFrame>().frame();
             if frame.tick > 0 && frame.tick <= 120 {
                 assert_same(frame, &log.frames()[frame.tick as usize - 1]);
                 seen += 1;
@@ -58,17 +58,17 @@ fn frame_rates_and_stalls_change_no_bit() {
 fn the_transport_obeys() {
     let log = Run::record(tour(40), Seed(9)).unwrap();
     let mut app = app(40, Seed(9));
-    let tick = |app: &App| app.world().resource::<Transport>().tick;
+    let tick = |app: &App| app.world().resource::<Transport>().tick();
     send(&mut app, TransportCommand::Step);
     send(&mut app, TransportCommand::Step);
     assert_eq!(tick(&app), 2);
     send(&mut app, TransportCommand::StepBack);
     assert_eq!(tick(&app), 1);
     send(&mut app, TransportCommand::Seek(33));
-    assert_same(&app.world().resource::<LatestFrame>().0, &log.frames()[32]);
+    assert_same(app.world().resource::<LatestFrame>().frame(), &log.frames()[32]);
     send(&mut app, TransportCommand::Seek(7));
-    assert_same(&app.world().resource::<LatestFrame>().0, &log.frames()[6]);
-    assert_eq!(app.world().resource::<Transport>().frontier, 33);
+    assert_same(app.world().resource::<LatestFrame>().frame(), &log.frames()[6]);
+    assert_eq!(app.world().resource::<Transport>().frontier(), 33);
     send(&mut app, TransportCommand::Play);
     let before = tick(&app);
     app.update();
@@ -81,15 +81,15 @@ fn the_transport_obeys() {
     assert_eq!(app.world().resource::<Transport>().speed, 1.0);
     send(&mut app, TransportCommand::SetSpeed(2.0));
     send(&mut app, TransportCommand::ReRoll);
-    let rolled = *app.world().resource::<Transport>();
-    assert!(rolled.seed != Seed(9) && rolled.tick == 0 && rolled.speed == 2.0);
+    let rolled = app.world().resource::<Transport>();
+    assert!(rolled.seed() != Seed(9) && rolled.tick() == 0 && rolled.speed == 2.0);
     send(&mut app, TransportCommand::Seek(30));
-    assert_ne!(app.world().resource::<LatestFrame>().0, log.frames()[29]);
+    assert_ne!(*app.world().resource::<LatestFrame>().frame(), log.frames()[29]);
     send(&mut app, TransportCommand::SetSeed(Seed(9)));
     send(&mut app, TransportCommand::Seek(30));
-    assert_same(&app.world().resource::<LatestFrame>().0, &log.frames()[29]);
+    assert_same(app.world().resource::<LatestFrame>().frame(), &log.frames()[29]);
     send(&mut app, TransportCommand::Reset);
-    assert_same(&app.world().resource::<LatestFrame>().0, log.initial().unwrap());
+    assert_same(app.world().resource::<LatestFrame>().frame(), log.initial().unwrap());
 }
 
 #[test]
@@ -111,19 +111,19 @@ fn live_driving_is_recorded_and_replays() {
     let script = app.world().resource::<PendingInput>().script().clone();
     assert_eq!(script.events.iter().map(|e| e.tick).collect::<Vec<_>>(), [11, 16, 16]);
     let replayed = Run::record(tour(20), (Seed(4), script)).unwrap();
-    assert_same(&app.world().resource::<LatestFrame>().0, &replayed.frames()[19]);
+    assert_same(app.world().resource::<LatestFrame>().frame(), &replayed.frames()[19]);
 
     // back to tick 12: playing on repeats the rest, driving forgets it
     send(&mut app, TransportCommand::Seek(12));
     step(&mut app, 8);
-    assert_same(&app.world().resource::<LatestFrame>().0, &replayed.frames()[19]);
+    assert_same(app.world().resource::<LatestFrame>().frame(), &replayed.frames()[19]);
     send(&mut app, TransportCommand::Seek(12));
     drive(&mut app, "Rusty", RobotInput::Release);
     step(&mut app, 8);
     let script = app.world().resource::<PendingInput>().script().clone();
     assert_eq!(script.events.iter().map(|e| e.tick).collect::<Vec<_>>(), [11, 13]);
     let other = Run::record(tour(20), (Seed(4), script)).unwrap();
-    assert_same(&app.world().resource::<LatestFrame>().0, &other.frames()[19]);
+    assert_same(app.world().resource::<LatestFrame>().frame(), &other.frames()[19]);
     assert_ne!(other.frames()[19], replayed.frames()[19]);
 }
 
@@ -131,7 +131,7 @@ fn live_driving_is_recorded_and_replays() {
 fn a_run_that_cannot_start_leaves_the_one_under_way() {
     let mut app = app(5, Seed(4));
     send(&mut app, TransportCommand::Step);
-    let before = app.world().resource::<LatestFrame>().clone();
+    let before = app.world().resource::<LatestFrame>().frame().clone();
     let mut bad = tour(5);
     bad.worlds[2].robots[0].kind = "hovercraft".into();
     let error = start_run(app.world_mut(), bad, Seed(1)).unwrap_err().to_string();
@@ -139,8 +139,31 @@ fn a_run_that_cannot_start_leaves_the_one_under_way() {
     let mut bad = tour(5);
     bad.worlds[1].robots[0].start.push(0.0);
     assert!(start_run(app.world_mut(), bad, Seed(1)).unwrap_err().to_string().contains("Reach"));
-    assert_eq!(*app.world().resource::<LatestFrame>(), before);
+    assert_eq!(*app.world().resource::<LatestFrame>().frame(), before);
     assert_eq!(view(app.world()).len(), 3);
     send(&mut app, TransportCommand::Step);
-    assert_eq!(app.world().resource::<Transport>().tick, 2);
+    assert_eq!(app.world().resource::<Transport>().tick(), 2);
+}
+
+/// The types of the systems of a tick, in their order.
+fn systems(world: &bevy::prelude::World) -> Vec<std::any::TypeId> {
+    use bevy::ecs::system::System;
+    let schedules = world.resource::<bevy::prelude::Schedules>();
+    let schedule = schedules.get(motion_lab_sim::simulation::SimulationSchedule).unwrap();
+    schedule.systems().unwrap().map(|(_, system)| System::system_type(&**system)).collect()
+}
+
+#[test]
+fn a_recorder_runs_the_systems_of_a_headless_app_in_the_same_order() {
+    let mut app = motion_lab_sim::simulation::headless_app();
+    start_run(app.world_mut(), tour(5), Seed(4)).unwrap();
+    let mut recorder = Recorder::new(tour(5), Seed(4)).unwrap();
+    for _ in 0..5 {
+        motion_lab_sim::simulation::step(app.world_mut());
+        assert_same(app.world().resource::<LatestFrame>().frame(), recorder.step());
+    }
+    let (of_app, of_recorder) = (systems(app.world()), systems(recorder.world()));
+    // five systems of each of three types of robots, and those of the tick itself
+    assert!(of_app.len() >= 3 * 5 + 6, "{}", of_app.len());
+    assert_eq!(of_app, of_recorder);
 }

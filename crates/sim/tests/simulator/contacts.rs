@@ -26,8 +26,8 @@ struct Diary(Heard);
 
 /// Notes an event, which comes outside of the schedule, when the tick's frame has been taken.
 fn note(diary: &mut Diary, heard: (u64, u32, bool), frame: &LatestFrame, schedules: &Schedules) {
-    assert_eq!(frame.0.tick, heard.0, "the frame is the tick's");
-    assert_eq!(frame.0.robots[heard.1 as usize].in_contact, heard.2);
+    assert_eq!(frame.frame().tick, heard.0, "the frame is the tick's");
+    assert_eq!(frame.frame().robots[heard.1 as usize].in_contact, heard.2);
     assert!(schedules.contains(SimulationSchedule), "a schedule that runs is not among the schedules");
     diary.0.push(heard);
 }
@@ -111,7 +111,7 @@ fn every_contact_begins_and_ends_once_whoever_runs_the_ticks() {
         let mut app = app();
         app.insert_resource(TimeUpdateStrategy::ManualDuration(Duration::from_millis(milliseconds)));
         app.world_mut().resource_mut::<Transport>().playback = Playback::Playing;
-        while app.world().resource::<Transport>().tick < 140 {
+        while app.world().resource::<Transport>().tick() < 140 {
             app.update();
         }
         assert_eq!(*heard(app.world()), expected, "{milliseconds} ms");
@@ -175,5 +175,5 @@ fn an_observer_may_begin_another_run() {
         step(app.world_mut());
     }
     assert_eq!(app.world().resource::<Diary>().0, [(60, 0, false)], "the other robot of that tick is gone");
-    assert_eq!(app.world().resource::<Transport>().tick, 0);
+    assert_eq!(app.world().resource::<Transport>().tick(), 0);
 }

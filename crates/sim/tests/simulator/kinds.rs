@@ -160,7 +160,7 @@ fn a_kind_registered_again_is_the_new_one_and_keeps_its_dimensions() {
     assert_eq!((low.x, high.x), (-3.8, -2.0));
     motion_lab_sim::simulation::step(app.world_mut());
     // an arc of v dt tan(phi) / L
-    let heading = app.world().resource::<LatestFrame>().0.robots[0].configuration[2];
+    let heading = app.world().resource::<LatestFrame>().frame().robots[0].configuration[2];
     let expected = 1.5 * 0.05 * motion_lab_core::num::tan(0.6) / 2.0;
     assert!((heading - expected).abs() < 1e-12, "{heading} {expected}");
 }

@@ -17,8 +17,8 @@ use crate::window::ui::{Interface, Notice, Offer};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::run::Recipe;
 use motion_lab_sim::simulation::{
-    LatestFrame, PendingInput, Playback, RunConfig, Transport, TransportCommand, checkpoint, is_under_way, recipe,
-    seek, start_recipe,
+    LatestFrame, PendingInput, Playback, RunConfig, Transport, TransportCommand, checkpoint, extend_frontier,
+    is_under_way, recipe, seek, start_recipe,
 };
 use motion_lab_sim::tour::TourConfig;
 
@@ -113,11 +113,11 @@ pub fn note_in_file(world: &mut World, ticks: u64) -> Arc<AtomicBool> {
 /// Whether there is input that would be lost.
 fn is_worth_keeping(world: &World) -> bool {
     let script = world.resource::<PendingInput>().script();
-    let Some(RunConfig(config)) = world.get_resource::<RunConfig>() else { return false };
+    let Some(config) = world.get_resource::<RunConfig>().map(RunConfig::config) else { return false };
     let is_this = |file: &InFile| {
         let Recipe { seed, config: in_file, script: saved } = &file.recipe;
         file.is_there.load(Ordering::Acquire)
-            && *seed == world.resource::<Transport>().seed
+            && *seed == world.resource::<Transport>().seed()
             && (Arc::ptr_eq(in_file, config) || in_file == config)
             && saved == script
     };
@@ -126,14 +126,16 @@ fn is_worth_keeping(world: &World) -> bool {
 
 /// The run as it stands.
 fn present(world: &World) -> Option<SavedRun> {
-    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
-    let frame = world.resource::<LatestFrame>().0.digest();
+    let transport = world.resource::<Transport>();
+    let (tick, frontier) = (transport.tick(), transport.frontier());
+    let frame = world.resource::<LatestFrame>().frame().digest();
     Some(SavedRun { recipe: recipe(world)?, tick, frontier, frame })
 }
 
 /// Whether the run stands as it was written.
 fn is_written(world: &World) -> bool {
-    let Transport { tick, frontier, .. } = *world.resource::<Transport>();
+    let transport = world.resource::<Transport>();
+    let (tick, frontier) = (transport.tick(), transport.frontier());
     let is_as = |written: &SavedRun| {
         (written.tick, written.frontier) == (tick, frontier) && is_under_way(world, &written.recipe)
     };
@@ -312,7 +314,7 @@ fn answer(world: &mut World) {
 fn bring_back(world: &mut World, run: SavedRun) -> Result<(), SessionError> {
     background::stop(world);
     checkpoint(world);
-    let Transport { speed, .. } = *world.resource::<Transport>();
+    let speed = world.resource::<Transport>().speed;
     start_recipe(world, run.recipe.clone())?;
     let (tick, frontier) = (run.tick, run.frontier);
     world.resource_mut::<Autosave>().pending = Some(run);
@@ -326,8 +328,7 @@ fn bring_back(world: &mut World, run: SavedRun) -> Result<(), SessionError> {
         }
         seek(world, tick)?;
     }
-    let mut transport = world.resource_mut::<Transport>();
-    transport.frontier = std::cmp::max(frontier, transport.frontier);
+    extend_frontier(world, frontier);
     arrive(world);
     Ok(())
 }
@@ -338,7 +339,7 @@ fn arrive(world: &mut World) {
         return;
     }
     let Some(run) = world.resource_mut::<Autosave>().pending.take() else { return };
-    let frame = &world.resource::<LatestFrame>().0;
+    let frame = world.resource::<LatestFrame>().frame();
     // somebody stopped it on its way, or went elsewhere
     if frame.tick != run.tick {
         return;

@@ -218,7 +218,7 @@ fn a_new_world_is_named_filled_and_run_and_the_old_ones_are_kept() {
     harness.step();
     press(&mut harness, Modifiers::NONE, Key::Enter);
     click(&mut harness, "Run this world");
-    let config = harness.state().app.world().resource::<RunConfig>().0.clone();
+    let config = harness.state().app.world().resource::<RunConfig>().config().clone();
     assert_eq!(config.worlds.iter().map(|w| w.name.as_str()).collect::<Vec<_>>(), ["Yard"]);
     assert_eq!(config.worlds[0].robots[0].start, [3.0, 2.0, 0.0]);
     // the Apartment without its table is in the list

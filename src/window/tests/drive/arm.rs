@@ -3,7 +3,7 @@
 use super::*;
 
 #[test]
-fn dragging_the_elbow_keeps_theta2_and_the_dragged_tip_follows_the_pointer() {
+fn dragging_the_elbow_keeps_theta2_and_dragging_the_tip_turns_joint_2_alone() {
     let mut harness = lab(WIDE);
     let held = |q: &Coordinates, i: usize| (q[i] * 1e5).round();
     bring(&mut harness, "Reach");
@@ -18,18 +18,22 @@ fn dragging_the_elbow_keeps_theta2_and_the_dragged_tip_follows_the_pointer() {
     assert_eq!(held(&second.coordinates, 1), held(&first.coordinates, 1), "theta2 is kept");
     let radius = |r: &RobotView| r.tip.map(|t| t.coords.norm());
     assert!((radius(&second).unwrap() - radius(&first).unwrap()).abs() < 1e-5, "a circle about the base");
-    drag(&mut harness, "Reach: tip, θ₂ in radians", [1.5, 0.5]);
-    let third = harness.state().robot(1);
-    let is_at =
-        |r: &RobotView, x: f64, y: f64| (r.tip.unwrap() - motion_lab_core::geometry::Point2::new(x, y)).norm() < 0.01;
-    assert!(is_at(&third, 1.5, 0.5), "both joints follow: {:?}", third.tip);
-    assert_eq!(third.coordinates[1] > 0.0, second.coordinates[1] > 0.0, "on its side");
-    // beyond its reach the arm points at the pointer, straight, and comes back to the side where it was
-    drag(&mut harness, "Reach: tip, θ₂ in radians", [1.8, 1.8]);
-    let straight = harness.state().robot(1);
-    let half = std::f64::consts::SQRT_2;
-    assert!(is_at(&straight, half, half), "{:?}", straight.tip);
-    click(&mut harness, "Undo");
+    // the tip goes on its circle about the elbow, as near to the pointer as that comes: the elbow stays where it is
+    let (s, c) = motion_lab_core::num::sin_cos(second.coordinates[0]);
+    let elbow = motion_lab_core::geometry::Point2::new(c, s);
+    let mut third = second.clone();
+    for wish in [[1.8, 1.8], [1.5, 0.5]] {
+        drag(&mut harness, "Reach: tip, θ₂ in radians", wish);
+        third = harness.state().robot(1);
+        assert_eq!(held(&third.coordinates, 0), held(&second.coordinates, 0), "theta1 is kept");
+        let (link, away) = (third.tip.unwrap() - elbow, motion_lab_core::geometry::Point2::from(wish) - elbow);
+        assert!((link.norm() - 1.0).abs() < 1e-5, "{link:?}");
+        assert!((link - away.normalize()).norm() < 0.02, "{link:?} toward {away:?}");
+        if wish == [1.8, 1.8] {
+            click(&mut harness, "Undo");
+        }
+    }
+    assert!(held(&third.coordinates, 1) != held(&second.coordinates, 1));
     // each drag is one thing to undo
     let moves = |lab: &Lab| lab.script().events.len();
     let all = moves(harness.state());
@@ -101,14 +105,14 @@ fn an_arm_of_three_links_walks_while_its_tip_stays() {
     }
     assert!(at.windows(2).all(|w| w[1] > w[0] + 0.05), "theta1 walks: {at:?}");
     click(&mut harness, "Undo");
-    // a dragged tip keeps the first joint
+    // a dragged tip turns its own joint alone
     let before = harness.state().robot(1);
     let to = before.tip.unwrap() * 0.9;
     drag(&mut harness, "Reach: tip, θ₃ in radians", [to.x, to.y]);
     click(&mut harness, "Step");
     let after = harness.state().robot(1);
-    assert!((after.tip.unwrap() - to).norm() < 0.01, "{:?} {to}", after.tip);
-    assert!((after.coordinates[0] - before.coordinates[0]).abs() < 1e-5);
+    let turned = [0, 1, 2].map(|joint| (after.coordinates[joint] - before.coordinates[joint]).abs());
+    assert!(turned[0] < 1e-5 && turned[1] < 1e-5 && turned[2] > 0.01, "{turned:?}");
     click(&mut harness, "Undo");
     click(&mut harness, "two links");
     assert_eq!(harness.state().robot(1).coordinates.len(), 2);

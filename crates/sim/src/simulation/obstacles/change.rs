@@ -2,9 +2,9 @@
 
 use bevy::prelude::*;
 
-use super::roster::{ObstacleRoster, WorldObstacles, at_work, place, refresh, wanted};
+use super::roster::{ObstacleRoster, WorldObstacles, place, refresh, wanted, with_roster};
 use crate::run::WorldEvent;
-use crate::simulation::{ObstacleShape, Placement, Residents, RobotId, RobotName, RobotOps};
+use crate::simulation::{Placement, Residents, RobotId, RobotName, RobotOps};
 use motion_lab_core::collision::touch;
 use motion_lab_core::geometry::Placed;
 
@@ -63,7 +63,7 @@ pub(crate) fn make(world: &mut World, events: &[WorldEvent]) {
             world.resource_mut::<RefusedChanges>().0.push(refused);
             continue;
         }
-        at_work(world, |world, roster| {
+        with_roster(world, |world, roster| {
             let number = roster.world(&event.world);
             if let Some(ground) = number.and_then(|w| roster.grounds.get_mut(w))
                 && let Some((number, placement)) = wanted(ground, &event.change)
@@ -73,9 +73,4 @@ pub(crate) fn make(world: &mut World, events: &[WorldEvent]) {
             refresh(world, roster);
         });
     }
-}
-
-/// The name of an obstacle's entity, for messages.
-pub(crate) fn name_of(world: &World, obstacle: Entity) -> String {
-    world.get::<ObstacleShape>(obstacle).map_or_else(String::new, |shape| shape.name.clone())
 }

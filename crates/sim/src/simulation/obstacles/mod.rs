@@ -3,4 +3,3 @@
 pub(crate) mod change;
 pub(crate) mod roster;
 pub(crate) mod start;
-pub(crate) mod watch;

@@ -1,11 +1,14 @@
 //! `ObstacleRoster`, the obstacles and doors of a run by world and number, and where each is now.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use bevy::prelude::*;
 
 use crate::run::{ObstacleState, WorldChange, WorldEvent};
+use crate::simulation::truth::thing::RunThing;
+use crate::simulation::truth::touched::{ForeignTouches, at_work};
 use crate::simulation::{
     Door, ObstacleOf, ObstacleShape, Obstacles, Placement, RestoreError, Roster, SceneRevision, SimulatedWorld,
     StandingWorld, WorldScene,
@@ -36,6 +39,8 @@ struct RosterEntry {
 #[derive(Debug)]
 pub(crate) struct WorldObstacles {
     entity: Entity,
+    /// The world's number.
+    number: usize,
     /// The world at the start of the run.
     start: Arc<WorldModel>,
     entries: Vec<RosterEntry>,
@@ -52,10 +57,6 @@ pub struct ObstacleRoster {
     pub(crate) grounds: Vec<WorldObstacles>,
     /// The number of the next scene's revision; it never comes back in one app.
     next_revision: u64,
-    /// Whether the simulation itself is changing obstacles.
-    pub(crate) is_at_work: bool,
-    /// Whether an obstacle was changed from outside before tick 0.
-    pub(crate) is_unsettled: bool,
 }
 
 impl WorldObstacles {
@@ -66,40 +67,54 @@ impl WorldObstacles {
         there == self.entities().count() && self.entities().enumerate().all(is_placed)
     }
 
-    /// Spawns the obstacles and the doors of a world, as children of its entity.
-    pub(crate) fn spawn(world: &mut World, entity: Entity, start: Arc<WorldModel>) -> Self {
+    /// The ground of a world whose obstacles and doors have these entities, in their order; [`dress_all`](Self::dress_all)
+    /// spawns those that are missing or `None`.
+    pub(crate) fn new(entity: Entity, number: usize, start: Arc<WorldModel>, entities: &[Option<Entity>]) -> Self {
+        let (changed, numbers) = (BTreeSet::new(), BTreeMap::new());
         let mut ground = WorldObstacles {
             entity,
+            number,
             start: Arc::clone(&start),
-            entries: Vec::new(),
-            numbers: BTreeMap::new(),
-            changed: BTreeSet::new(),
-            is_stale: false,
+            entries: vec![],
+            numbers,
+            changed,
+            is_stale: true,
         };
-        let there = Placement::default();
-        for (i, obstacle) in start.obstacles.iter().enumerate() {
-            let id = world.spawn((shape_of(obstacle), there, ObstacleOf(entity))).id();
-            ground.push(&obstacle.name, id, ShapeSource::File(i), there);
-        }
-        for (i, door) in start.doors.iter().enumerate() {
-            let placement = Placement { present: !door.open, ..there };
-            let id = world.spawn((shape_of(&door.leaf()), placement, Door, ObstacleOf(entity))).id();
-            ground.push(&door.name, id, ShapeSource::Door(i), placement);
+        let obstacles = start.obstacles.iter().enumerate().map(|(i, o)| (&o.name, ShapeSource::File(i), true));
+        let doors = start.doors.iter().enumerate().map(|(i, d)| (&d.name, ShapeSource::Door(i), !d.open));
+        let entities = entities.iter().copied().chain(std::iter::repeat(None));
+        for ((name, source, present), entity) in obstacles.chain(doors).zip(entities) {
+            let placement = Placement { present, ..Placement::default() };
+            ground.push(name, entity.unwrap_or(Entity::PLACEHOLDER), source, placement);
         }
         ground
     }
 
-    /// The ground of a world whose obstacles and doors have these entities, in their order.
-    pub(crate) fn of_entities(entity: Entity, start: Arc<WorldModel>, entities: &[Entity]) -> Self {
-        let (changed, numbers) = (BTreeSet::new(), BTreeMap::new());
-        let mut ground =
-            WorldObstacles { entity, start: Arc::clone(&start), entries: vec![], numbers, changed, is_stale: true };
-        let obstacles = start.obstacles.iter().enumerate().map(|(i, o)| (&o.name, ShapeSource::File(i), true));
-        let doors = start.doors.iter().enumerate().map(|(i, d)| (&d.name, ShapeSource::Door(i), !d.open));
-        for ((name, source, present), &entity) in obstacles.chain(doors).zip(entities) {
-            ground.push(name, entity, source, Placement { present, ..Placement::default() });
+    /// The ground of a world whose scene was made with it.
+    pub(crate) fn fresh(self) -> Self {
+        WorldObstacles { is_stale: false, ..self }
+    }
+
+    /// Gives every obstacle the components that the run has for it.
+    pub(crate) fn dress_all(&mut self, world: &mut World) {
+        (0..self.entries.len()).for_each(|number| self.dress(world, number));
+    }
+
+    /// Gives an obstacle the components that the run has for it, on an entity of its own if it has none.
+    fn dress(&mut self, world: &mut World, number: usize) {
+        let at = (RunThing::Obstacle(self.number, number), ObstacleOf(self.entity));
+        let Some(shape) = self.obstacle(number).map(|obstacle| shape_of(&obstacle)) else { return };
+        let entry = &mut self.entries[number];
+        if world.get_entity(entry.entity).is_err() {
+            entry.entity = world.spawn_empty().id();
         }
-        ground
+        let mut entity = world.entity_mut(entry.entity);
+        entity.insert((shape, entry.now, at));
+        if matches!(entry.source, ShapeSource::Door(_)) {
+            entity.insert(Door)
+        } else {
+            entity.remove::<Door>()
+        };
     }
 
     fn push(&mut self, name: &str, entity: Entity, source: ShapeSource, at_first: Placement) {
@@ -121,6 +136,16 @@ impl WorldObstacles {
         self.entries.iter().filter(|e| !matches!(e.source, ShapeSource::Added(_))).map(|e| e.entity)
     }
 
+    /// The entity of an obstacle. It may be despawned.
+    pub(crate) fn entity_of(&self, number: usize) -> Option<Entity> {
+        Some(self.entries.get(number)?.entity)
+    }
+
+    /// The name of an obstacle.
+    pub(crate) fn name_of(&self, number: usize) -> Option<&str> {
+        self.numbers.iter().find(|(_, n)| **n == number).map(|(name, _)| name.as_str())
+    }
+
     /// The number of the obstacle or the door of this name.
     pub(crate) fn number(&self, name: &str) -> Option<usize> {
         self.numbers.get(name).copied()
@@ -133,17 +158,17 @@ impl WorldObstacles {
 
     /// The obstacle as it would be at a placement, or `None` where it would not be there.
     pub(crate) fn placed(&self, number: usize, placement: &Placement) -> Option<Obstacle> {
-        let entry = self.entries.get(number).filter(|_| placement.present)?;
-        let leaf;
-        let obstacle = match &entry.source {
-            ShapeSource::File(i) => self.start.obstacles.get(*i)?,
-            ShapeSource::Door(i) => {
-                leaf = self.start.doors.get(*i)?.leaf();
-                &leaf
-            }
-            ShapeSource::Added(obstacle) => obstacle,
-        };
-        Some(moved(obstacle, &placement.pose))
+        let obstacle = if placement.present { self.obstacle(number)? } else { return None };
+        Some(moved(&obstacle, &placement.pose))
+    }
+
+    /// The obstacle where its pieces are at first.
+    fn obstacle(&self, number: usize) -> Option<Cow<'_, Obstacle>> {
+        Some(match &self.entries.get(number)?.source {
+            ShapeSource::File(i) => Cow::Borrowed(self.start.obstacles.get(*i)?),
+            ShapeSource::Door(i) => Cow::Owned(self.start.doors.get(*i)?.leaf()),
+            ShapeSource::Added(obstacle) => Cow::Borrowed(obstacle),
+        })
     }
 
     /// The world as it stands now: its obstacles where they are, then the added ones, and its doors open or closed.
@@ -195,12 +220,45 @@ impl ObstacleRoster {
 }
 
 /// Runs `work` on the roster. What it changes of the entities is the simulation's own doing.
-pub(crate) fn at_work<T>(world: &mut World, work: impl FnOnce(&mut World, &mut ObstacleRoster) -> T) -> T {
-    let mut roster = std::mem::take(&mut *world.resource_mut::<ObstacleRoster>());
-    world.resource_mut::<ObstacleRoster>().is_at_work = true;
-    let done = work(world, &mut roster);
-    *world.resource_mut::<ObstacleRoster>() = roster;
-    done
+pub(crate) fn with_roster<T>(world: &mut World, work: impl FnOnce(&mut World, &mut ObstacleRoster) -> T) -> T {
+    at_work(world, |world| {
+        let mut roster = std::mem::take(&mut *world.resource_mut::<ObstacleRoster>());
+        let done = work(world, &mut roster);
+        *world.resource_mut::<ObstacleRoster>() = roster;
+        done
+    })
+}
+
+/// Gives a world of the run its components and its scene anew, on an entity of its own if it has lost it.
+pub(crate) fn dress_world(world: &mut World, number: usize) {
+    with_roster(world, |world, roster| {
+        let Some(ground) = roster.grounds.get_mut(number) else { return };
+        if world.get_entity(ground.entity).is_err() {
+            ground.entity = world.spawn_empty().id();
+            world.resource_mut::<Roster>().worlds[number] = ground.entity;
+        }
+        let model = Arc::clone(&ground.start);
+        let at = SimulatedWorld { index: number as u32, model };
+        world.entity_mut(ground.entity).insert((at, RunThing::World(number)));
+        ground.is_stale = true;
+        refresh(world, roster);
+    });
+}
+
+/// Gives an obstacle of the run its components.
+pub(crate) fn dress_obstacle(world: &mut World, w: usize, number: usize) {
+    with_roster(world, |world, roster| {
+        if let Some(ground) = roster.grounds.get_mut(w) {
+            ground.dress(world, number);
+        }
+    });
+}
+
+/// Takes the components of an obstacle off an entity.
+pub(crate) fn undress(world: &mut World, entity: Entity) {
+    if let Ok(mut entity) = world.get_entity_mut(entity) {
+        entity.remove::<(ObstacleShape, Placement, Door, ObstacleOf, RunThing)>();
+    }
 }
 
 /// Puts an obstacle somewhere. The scene follows with [`refresh`].
@@ -239,7 +297,7 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
             added.entry(world).or_default().push(obstacle);
         }
     }
-    at_work(world, |world, roster| {
+    with_roster(world, |world, roster| {
         for ground in &mut roster.grounds {
             let wanted = added.remove(ground.start.name.as_str()).unwrap_or_default();
             let file = ground.start.obstacles.len() + ground.start.doors.len();
@@ -255,9 +313,9 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
             ground.changed.split_off(&kept);
             let absent = Placement { present: false, ..Placement::default() };
             for obstacle in wanted.into_iter().skip(kept - file) {
-                let entity = world.spawn((shape_of(&obstacle), absent, ObstacleOf(ground.entity))).id();
                 let name = obstacle.name.clone();
-                ground.push(&name, entity, ShapeSource::Added(obstacle), absent);
+                ground.push(&name, Entity::PLACEHOLDER, ShapeSource::Added(obstacle), absent);
+                ground.dress(world, ground.entries.len() - 1);
             }
         }
         refresh(world, roster);
@@ -269,7 +327,7 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
 /// # Errors
 /// [`RestoreError::Obstacle`], with nothing changed, when the frame has an obstacle that the run does not have.
 pub(crate) fn restore(world: &mut World, tick: u64, states: &[ObstacleState]) -> Result<(), RestoreError> {
-    at_work(world, |world, roster| {
+    with_roster(world, |world, roster| {
         for state in states {
             let ground = roster.grounds.get(state.world as usize);
             if ground.is_none_or(|g| state.obstacle as usize >= g.entries.len()) {
@@ -295,7 +353,7 @@ pub(crate) fn restore(world: &mut World, tick: u64, states: &[ObstacleState]) ->
 
 /// Gives every world of the run its residents, at its start and as it stands. Obstacles and scenes stay.
 pub(crate) fn set_residents(world: &mut World, models: &[WorldModel]) {
-    at_work(world, |world, roster| {
+    with_roster(world, |world, roster| {
         for (ground, model) in roster.grounds.iter_mut().zip(models).filter(|(g, m)| g.start.robots != m.robots) {
             let robots = model.robots.clone();
             ground.start = Arc::new(WorldModel { robots, ..WorldModel::clone(&ground.start) });
@@ -325,5 +383,6 @@ pub(crate) fn begin(world: &mut World, grounds: Vec<WorldObstacles>) {
     debug_assert_eq!(grounds.len(), world.resource::<Roster>().worlds().len());
     // observers of what the start spawned may have changed it already
     let is_unsettled = grounds.iter().any(|ground| !ground.is_as_spawned(world));
-    world.insert_resource(ObstacleRoster { grounds, next_revision, is_at_work: false, is_unsettled });
+    world.insert_resource(ObstacleRoster { grounds, next_revision });
+    world.resource_mut::<ForeignTouches>().is_unsettled |= is_unsettled;
 }

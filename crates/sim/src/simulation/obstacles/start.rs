@@ -5,54 +5,43 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::roster::{ObstacleRoster, WorldObstacles, at_work, moved, refresh};
-use crate::simulation::{
-    CommandError, CommandRefused, Door, History, Keyframes, ObstacleShape, Obstacles, PendingInput, Placement,
-    RunConfig, SimulatedWorld, Transport, state, tick,
-};
+use super::roster::{WorldObstacles, moved, refresh, undress, with_roster};
+use crate::simulation::truth::thing::RunThing;
+use crate::simulation::{CommandError, CommandRefused, Door, ObstacleShape, Obstacles, Placement, SimulatedWorld};
 use crate::tour::TourConfig;
 use motion_lab_core::geometry::{Pose2, Shape};
 use motion_lab_core::worlds::{Door as DoorModel, Obstacle, World as WorldModel};
 
-/// Makes the obstacle entities of a run at tick 0 what its robots meet: the worlds, their scenes, the run's
-/// configuration and frame 0 follow from them. Without a change from outside it does nothing.
+/// Makes the obstacle entities of a run at tick 0 what its robots meet: the worlds of `config`, whose robots are those of
+/// the run to be, and their scenes follow from them. The worlds in `lost` were despawned: they keep what they had.
 ///
 /// The world file's obstacles keep their order, then come the others by their names. An entity that is no obstacle of a
 /// world file (a taken or bad name, no valid piece) is left out, and a [`CommandRefused`] says so.
-pub(crate) fn settle_start(world: &mut World) {
-    let is_unsettled = world.get_resource::<ObstacleRoster>().is_some_and(|roster| roster.is_unsettled);
-    if !is_unsettled || world.resource::<Transport>().tick > 0 {
-        return;
-    }
-    world.resource_mut::<ObstacleRoster>().is_unsettled = false;
-    let mut config = TourConfig::clone(&world.resource::<RunConfig>().0);
-    at_work(world, |world, roster| {
-        for (ground, model) in roster.grounds.iter_mut().zip(&mut config.worlds) {
-            let (obstacles, doors, entities) = gather(world, ground);
-            (model.obstacles, model.doors) = (obstacles, doors);
+pub(crate) fn follow_obstacles(world: &mut World, config: &mut TourConfig, lost: &BTreeSet<usize>) {
+    with_roster(world, |world, roster| {
+        for (w, (ground, model)) in roster.grounds.iter_mut().zip(&mut config.worlds).enumerate() {
+            let mut entities = Vec::new();
+            if !lost.contains(&w) {
+                let found = gather(world, ground, model);
+                (model.obstacles, model.doors, entities) = found;
+            }
             let (start, entity) = (Arc::new(model.clone()), ground.entity());
-            *ground = WorldObstacles::of_entities(entity, Arc::clone(&start), &entities);
-            let index = world.get::<SimulatedWorld>(entity).map_or(0, |w| w.index);
+            *ground = WorldObstacles::new(entity, w, Arc::clone(&start), &entities);
+            ground.dress_all(world);
             if let Ok(mut entity) = world.get_entity_mut(entity) {
-                entity.insert(SimulatedWorld { index, model: start });
+                entity.insert((SimulatedWorld { index: w as u32, model: start }, RunThing::World(w)));
             }
         }
         refresh(world, roster);
     });
-    world.insert_resource(RunConfig(Arc::new(config)));
-    let changes = world.resource::<PendingInput>().script().changes.clone();
-    super::roster::sync_added(world, &changes);
-    world.resource_mut::<Keyframes>().clear();
-    if world.contains_resource::<History>() {
-        world.insert_resource(History::default());
-    }
-    world.resource_mut::<Transport>().frontier = 0;
-    tick::sense::sense_now(world);
-    state::record(world);
 }
 
 /// The obstacles and the doors of a world's entities, and the entities in the same order.
-fn gather(world: &mut World, ground: &WorldObstacles) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Entity>) {
+fn gather(
+    world: &mut World,
+    ground: &WorldObstacles,
+    model: &WorldModel,
+) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Option<Entity>>) {
     let there: BTreeSet<Entity> =
         world.get::<Obstacles>(ground.entity()).into_iter().flat_map(Obstacles::iter).collect();
     let known: Vec<Entity> = ground.entities().filter(|e| there.contains(e)).collect();
@@ -64,7 +53,7 @@ fn gather(world: &mut World, ground: &WorldObstacles) -> (Vec<Obstacle>, Vec<Doo
         .collect();
     new.sort_unstable();
     let start = ground.start();
-    let (mut taken, mut left_out) = (other_names(start), Vec::new());
+    let (mut taken, mut left_out) = (other_names(model), Vec::new());
     let (mut obstacles, mut doors): (Vec<(Obstacle, Entity)>, Vec<(DoorModel, Entity)>) = (Vec::new(), Vec::new());
     for entity in known.into_iter().chain(new.into_iter().map(|(_, e)| e)) {
         let Some(shape) = world.get::<ObstacleShape>(entity) else { continue };
@@ -80,13 +69,14 @@ fn gather(world: &mut World, ground: &WorldObstacles) -> (Vec<Obstacle>, Vec<Doo
         }) {
             Some(Some(StartObstacle::Door(made))) => doors.push((made, entity)),
             Some(Some(StartObstacle::Obstacle)) => obstacles.push((obstacle(start, shape, &placement.pose), entity)),
-            _ => left_out.push(CommandError::NoObstacle { world: start.name.clone(), name: shape.name.clone() }),
+            _ => left_out.push((entity, start.name.clone(), shape.name.clone())),
         }
     }
-    for refused in left_out {
-        world.write_message(CommandRefused(refused));
+    for (entity, of_world, name) in left_out {
+        undress(world, entity);
+        world.write_message(CommandRefused(CommandError::NoObstacle { world: of_world, name }));
     }
-    let entities = obstacles.iter().map(|(_, e)| *e).chain(doors.iter().map(|(_, e)| *e)).collect();
+    let entities = obstacles.iter().map(|(_, e)| Some(*e)).chain(doors.iter().map(|(_, e)| Some(*e))).collect();
     (obstacles.into_iter().map(|(o, _)| o).collect(), doors.into_iter().map(|(d, _)| d).collect(), entities)
 }
 

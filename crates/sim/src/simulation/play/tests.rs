@@ -26,10 +26,10 @@ fn run(world: &World, seed: Seed, played: &PlayedPath, after: u64) -> Vec<Frame>
     played.script.check_for(&config).unwrap();
     let world = app.world_mut();
     start_run(world, config, (seed, played.script.clone())).unwrap();
-    let mut frames = vec![world.resource::<LatestFrame>().0.clone()];
+    let mut frames = vec![world.resource::<LatestFrame>().frame().clone()];
     for _ in 0..played.ticks + after {
         step(world);
-        frames.push(world.resource::<LatestFrame>().0.clone());
+        frames.push(world.resource::<LatestFrame>().frame().clone());
     }
     assert_eq!(world.resource::<Refusals>().count(), 0);
     for frame in &frames {

@@ -55,9 +55,9 @@ pub(crate) fn with_events(world: &mut World, tick: impl FnOnce(&mut World)) {
     }
     let mut before = std::mem::take(&mut world.get_resource_or_init::<ContactsBefore>().0);
     before.clear();
-    before.extend(world.resource::<LatestFrame>().0.robots.iter().map(|robot| robot.in_contact));
+    before.extend(world.resource::<LatestFrame>().frame().robots.iter().map(|robot| robot.in_contact));
     tick(world);
-    let frame = &world.resource::<LatestFrame>().0;
+    let frame = world.resource::<LatestFrame>().frame();
     let (number, robots) = (frame.tick, world.get_resource::<Roster>().map_or(&[][..], Roster::robots));
     let states = robots.iter().zip(frame.robots.iter().zip(&before));
     // gathered first, because an observer may start another run

@@ -63,6 +63,10 @@ impl SimulatedRobot for Rusty {
         Rusty::with_sizes(self, sizes)
     }
 
+    fn sizes(&self) -> Option<Sizes> {
+        Some(Rusty::sizes(self))
+    }
+
     fn lab_model(&self) -> Option<AnyRobot> {
         Some(AnyRobot::Rusty(*self))
     }
@@ -127,6 +131,10 @@ impl<const N: usize> SimulatedRobot for Reach<N> {
 
     fn with_sizes(&self, sizes: &Sizes) -> Option<Self> {
         Reach::with_sizes(self, sizes)
+    }
+
+    fn sizes(&self) -> Option<Sizes> {
+        Some(Reach::sizes(self))
     }
 
     fn lab_model(&self) -> Option<AnyRobot> {
@@ -194,6 +202,10 @@ impl SimulatedRobot for Hitch {
 
     fn with_sizes(&self, sizes: &Sizes) -> Option<Self> {
         Hitch::with_sizes(self, sizes)
+    }
+
+    fn sizes(&self) -> Option<Sizes> {
+        Some(Hitch::sizes(self))
     }
 
     fn lab_model(&self) -> Option<AnyRobot> {

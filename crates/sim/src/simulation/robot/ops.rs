@@ -10,6 +10,7 @@ use super::simulated::canonical;
 use crate::run::{RobotInput, RobotState};
 use crate::simulation::past::trail::Gauges;
 use crate::simulation::tick::swept_set::{CoveredSet, CutMotion};
+use crate::simulation::truth::last_values::{self, FollowedValues, LastValues};
 use crate::simulation::{
     Configuration, Contacts, Cut, DrawnTour, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId,
     RobotModel, RobotName, RobotView, SimulatedRobot, SimulatedWorld, TickMotion, WorldScene,
@@ -39,6 +40,10 @@ pub struct RobotOps {
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
     /// robot.
     pub(crate) decode: fn(&mut World, Entity, &RobotState) -> Option<()>,
+    /// Puts back what others have written into the robot in a run, and returns the names of the components.
+    pub(crate) put_back: fn(&mut World, Entity) -> Vec<String>,
+    /// Takes what others have written into the robot at tick 0.
+    pub(crate) follow: fn(&mut World, Entity) -> FollowedValues,
     /// The robot as a view shows it.
     pub(crate) view: fn(&World, Entity) -> Option<RobotView>,
 }
@@ -54,6 +59,8 @@ impl RobotOps {
             senses: senses::<R>,
             encode: encode::<R>,
             decode: decode::<R>,
+            put_back: last_values::put_back::<R>,
+            follow: last_values::follow::<R>,
             view: view::<R>,
         }
     }
@@ -158,13 +165,13 @@ fn decode<R: SimulatedRobot>(world: &mut World, e: Entity, state: &RobotState) -
     if extra.len() != robot.initial_extra().len() || extra.iter().any(|x| x.is_nan()) {
         return None;
     }
-    let mut robot = world.entity_mut(e);
-    *robot.get_mut::<DriveMode<R>>()? =
-        DriveMode { manual: state.manual, channels: state.channels, target, refusals: state.refusals };
-    *robot.get_mut::<Contacts<R>>()? = Contacts::new(state.in_contact, state.contacts, state.flash);
-    robot.get_mut::<OwnState<R>>()?.extra = extra;
-    robot.get_mut::<Configuration<R>>()?.0 = q;
-    robot.get_mut::<PreviousConfiguration<R>>()?.0 = q;
+    let values = LastValues {
+        mode: DriveMode { manual: state.manual, channels: state.channels, target, refusals: state.refusals },
+        contacts: Contacts::new(state.in_contact, state.contacts, state.flash),
+        own: OwnState::new(extra),
+        ..LastValues::at_start(robot, q)
+    };
+    values.insert(&mut world.entity_mut(e));
     Some(())
 }
 

@@ -1,15 +1,20 @@
 //! `RobotPlugin`, one kind of robot in the simulation.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::spawn::{SpawnRequest, spawn_robot};
+use super::describe::describe;
+use super::registry::{KindPlugin, RobotKinds, Spawner};
+use super::spawn::spawn_robot;
 use crate::simulation::schedule::{CrowdSystems, KindSystems, TickPhase};
 use crate::simulation::tick::{drive, settle};
-use crate::simulation::{RobotOps, SimulatedRobot, SimulationSchedule, SimulationSystems, SpawnError, state};
-use motion_lab_core::configuration::{Configuration as _, Kinds, RobotKind};
+use crate::simulation::truth::watch::watch_components;
+use crate::simulation::{
+    Configuration, Contacts, Control, Cut, DrawnTour, DriveMode, OwnState, PreviousConfiguration, RobotModel, RobotOps,
+    SimulatedRobot, SimulationSchedule, SimulationSystems, TickMotion, state,
+};
+use motion_lab_core::configuration::{Configuration as _, RobotKind};
 use motion_lab_core::geometry::Footprint;
 
 /// Registers robots of type `R` with the simulation under the name of a kind. Worlds name the kind in their residents.
@@ -39,71 +44,10 @@ impl<R: SimulatedRobot> RobotPlugin<R> {
     }
 }
 
-/// Spawns one robot of a kind.
-type Spawner = Arc<dyn Fn(&mut World, &SpawnRequest) -> Result<Entity, SpawnError> + Send + Sync>;
-
-/// Adds a kind's plugin to an app.
-type Adder = Arc<dyn Fn(&mut App) + Send + Sync>;
-
-/// The kinds of robots that worlds may name.
-#[derive(Resource, Clone, Default)]
-pub struct RobotKinds {
-    spawners: BTreeMap<String, Spawner>,
-    about: BTreeMap<String, &'static RobotKind>,
-    /// The footprints of the kinds that are not the lab's.
-    known: Kinds,
-    /// The plugins by kind, in the order of registration.
-    plugins: Vec<(String, Adder)>,
-    types: usize,
-}
-
-impl RobotKinds {
-    /// The names of the kinds, in alphabetical order.
-    pub fn names(&self) -> impl Iterator<Item = &str> {
-        self.spawners.keys().map(String::as_str)
-    }
-
-    /// The description of a kind, if it has one.
-    pub fn about(&self, kind: &str) -> Option<&'static RobotKind> {
-        self.about.get(kind).copied()
-    }
-
-    /// What is known of the kinds, for what has no simulator: descriptions and, of a program's own kinds, footprints.
-    /// The atlas and a run's last lines use them.
-    pub fn known(&self) -> Kinds {
-        self.about.iter().fold(self.known.clone(), |kinds, (name, about)| kinds.with(name.as_str(), about))
-    }
-
-    /// Registers the same kinds in another app, which has the
-    /// [`SimulationPlugin`](crate::simulation::SimulationPlugin). A window hands its kinds on so to what records and
-    /// draws its runs.
-    ///
-    /// ```
-    /// use motion_lab_sim::recording::Run;
-    /// use motion_lab_sim::simulation::{RobotKinds, headless_app};
-    /// use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
-    ///
-    /// let app = headless_app(); // with plugins of your own
-    /// let kinds = app.world().resource::<RobotKinds>();
-    /// let config = TourConfig { ticks: 5, ..TourConfig::default() };
-    /// let log = Run::record_with_robots(config, BOOK_SEED, |recorder| kinds.add_to(recorder))?;
-    /// assert_eq!(log.frames().len(), 5);
-    /// # Ok::<(), motion_lab_sim::recording::RunError>(())
-    /// ```
-    pub fn add_to(&self, app: &mut App) {
-        self.plugins.iter().for_each(|(_, add)| add(app));
-    }
-
-    fn remember(&mut self, kind: &str, add: Adder) {
-        match self.plugins.iter_mut().find(|(name, _)| name == kind) {
-            Some((_, older)) => *older = add,
-            None => self.plugins.push((kind.to_owned(), add)),
-        }
-    }
-
-    pub(crate) fn spawner(&self, kind: &str) -> Option<Spawner> {
-        self.spawners.get(kind).cloned()
-    }
+/// Watches the components of a type of robots.
+fn watch<R: SimulatedRobot>(world: &mut World) {
+    watch_components!(world, Configuration<R>, PreviousConfiguration<R>, Control<R>, Contacts<R>, DriveMode<R>);
+    watch_components!(world, OwnState<R>, DrawnTour<R>, TickMotion<R>, Cut<R>);
 }
 
 /// The place of the systems of `R` among those of all types, and whether they are in the schedule.
@@ -122,6 +66,7 @@ fn install<R: SimulatedRobot>(world: &mut World) {
         return;
     }
     let number = systems.number;
+    watch::<R>(world);
     world.resource_mut::<Schedules>().add_systems(
         SimulationSchedule,
         (
@@ -146,28 +91,24 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
     fn build(&self, app: &mut App) {
         let model = self.model.clone();
         let ops = RobotOps::of::<R>();
-        let spawner: Spawner = Arc::new(move |world, request| {
+        let spawn: Spawner = Arc::new(move |world, request| {
             install::<R>(world);
             spawn_robot(world, &model, ops, request)
         });
+        let model = self.model.clone();
+        let describe =
+            Arc::new(move |world: &World, entity, base, at: (&_, &_)| describe(world, entity, &model, base, at));
         let plugin = self.clone();
+        let add = Arc::new(move |app: &mut App| _ = app.add_plugins(plugin.clone()));
+        let model = self.model.clone();
+        let known = move |start: &[f64]| footprint(&model, start);
         let mut kinds = app.world_mut().get_resource_or_init::<RobotKinds>();
-        if RobotKind::of(&self.kind).is_none() {
-            let model = self.model.clone();
-            let known = std::mem::take(&mut kinds.known);
-            kinds.known = known.with_footprint(&self.kind, move |start| footprint(&model, start));
-        }
-        kinds.remember(&self.kind, Arc::new(move |app: &mut App| _ = app.add_plugins(plugin.clone())));
-        kinds.spawners.insert(self.kind.clone(), spawner);
-        match self.about {
-            Some(about) => _ = kinds.about.insert(self.kind.clone(), about),
-            None => _ = kinds.about.remove(&self.kind),
-        }
-        let number = kinds.types;
+        let kind = KindPlugin { kind: &self.kind, spawn, describe, add, about: self.about };
+        let number = kinds.register::<R>(kind, known);
         if app.world().contains_resource::<SystemsOf<R>>() {
             return;
         }
-        app.world_mut().resource_mut::<RobotKinds>().types += 1;
+        watch_components!(app.world_mut(), RobotModel<R>);
         app.insert_resource(SystemsOf::<R> { number, installed: false, of: std::marker::PhantomData });
         let sets = [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle, KindSystems::Encode];
         for set in sets {

@@ -74,6 +74,12 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
         None
     }
 
+    /// The sizes that make this robot of its kind's model, by [`with_sizes`](Self::with_sizes). `None` for a robot that
+    /// takes none; such a robot can be in a run only as its kind's model has it.
+    fn sizes(&self) -> Option<Sizes> {
+        None
+    }
+
     /// The robot as one of the lab's, for views that ask about it: its configuration space, its teleports. `None` for a
     /// robot of a type of one's own. A car's hitch is there or not whatever it pulls.
     fn lab_model(&self) -> Option<AnyRobot> {

@@ -1,30 +1,26 @@
 //! Spawning a robot and its sensors as entities.
 
+use std::any::TypeId;
+use std::sync::Arc;
+
 use bevy::prelude::*;
 
+use super::request::SpawnRequest;
 use super::simulated::canonical;
 use crate::simulation::sensors::OfConfiguration;
+use crate::simulation::truth::last_values::LastValues;
+use crate::simulation::truth::lookup::thing_of;
+use crate::simulation::truth::thing::RunThing;
 use crate::simulation::{
-    Configuration, DrawnTour, MountedOn, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName,
-    RobotOps, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError,
+    Cut, DrawnTour, LatestFrame, MountedOn, ResidesIn, RobotId, RobotKinds, RobotModel, RobotName, RobotOps, Roster,
+    RunConfig, SensorModel, SensorMount, SensorName, SensorNoise, SimulatedRobot, Slip, SpawnError, TickMotion,
+    Transport,
 };
-use crate::tour::{ConfigError, RouteTours};
-use motion_lab_core::configuration::{Configuration as _, RobotKind, SizesError};
+use crate::tour::{ConfigError, RouteTours, TourConfig};
+use motion_lab_core::configuration::{Configuration as _, SizesError};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::sensors::{BeamModel, RangeSensor};
 use motion_lab_core::worlds::{Resident, World as WorldModel};
-
-/// One robot to be spawned.
-pub(crate) struct SpawnRequest<'a> {
-    pub(crate) seed: Seed,
-    pub(crate) id: RobotId,
-    pub(crate) world: Entity,
-    pub(crate) model: &'a WorldModel,
-    pub(crate) resident: &'a Resident,
-    pub(crate) sensor: Option<RangeSensor>,
-    pub(crate) routes: &'a RouteTours,
-    pub(crate) about: Option<&'static RobotKind>,
-}
 
 /// The robot that a resident is: the kind's model, with the resident's own sizes.
 fn sized<R: SimulatedRobot>(model: &R, resident: &Resident) -> Result<R, SizesError> {
@@ -105,7 +101,7 @@ pub(crate) fn tour<R: SimulatedRobot>(
     })
 }
 
-/// Spawns a robot of type `R`, with its sensors.
+/// Makes an entity the robot of type `R` that a resident is, at its start. What it is by another type goes.
 pub(crate) fn spawn_robot<R: SimulatedRobot>(
     world: &mut World,
     model: &R,
@@ -116,29 +112,143 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
     let SpawnableRobot { robot, q, noise } = SpawnableRobot::new(model, resident, request.model)?;
     let tour = tour(&robot, request.seed, (request.model, request.routes), resident, &q)?;
     let sensor = request.sensor.filter(|_| robot.sensor_pose(&q).is_some());
-    let entity = world
-        .spawn((
-            RobotModel(robot.clone()),
-            Configuration::<R>(q),
-            PreviousConfiguration::<R>(q),
-            OwnState::<R>::new(robot.initial_extra()),
-            DrawnTour::<R>(tour),
-            Slip(slip(request.seed, &resident.name)),
-            ops,
-            request.id,
-            RobotName { name: resident.name.clone(), kind: resident.kind.clone(), about: request.about },
-            ResidesIn(request.world),
-        ))
-        .id();
-    if let Some(sensor) = sensor {
-        let mut spawned = world.spawn((SensorModel::from(sensor), OfConfiguration, MountedOn(entity)));
+    let entity = request.entity.unwrap_or_else(|| world.spawn_empty().id());
+    let types = world.resource::<RobotKinds>().types().to_vec();
+    types.iter().filter(|other| other.id != TypeId::of::<R>()).for_each(|other| (other.strip)(world, entity));
+    let mut spawned = world.entity_mut(entity);
+    spawned.insert((
+        RobotModel(robot.clone()),
+        DrawnTour::<R>(tour),
+        Slip(slip(request.seed, &resident.name)),
+        TickMotion::<R>::default(),
+        Cut::<R>::default(),
+        ops,
+        request.id,
+        RobotName { name: resident.name.clone(), kind: resident.kind.clone(), about: request.about },
+        ResidesIn(request.world),
+        RunThing::Robot(request.id.0 as usize),
+    ));
+    LastValues::at_start(&robot, q).insert(&mut spawned);
+    if request.with_sensors {
+        spawn_sensors(world, entity, resident, sensor.map(|sensor| (sensor, noise)));
+    }
+    Ok(entity)
+}
+
+/// Spawns the sensors of a robot: the run's own, with the robot's noise, and those that the resident names.
+fn spawn_sensors(world: &mut World, robot: Entity, resident: &Resident, own: Option<(RangeSensor, Option<BeamModel>)>) {
+    if let Some((sensor, noise)) = own {
+        let mut spawned = world.spawn((SensorModel::from(sensor), OfConfiguration, MountedOn(robot)));
         noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
     }
     for sensor in &resident.sensors {
         let name = SensorName(sensor.name.clone());
         let mount = SensorMount(sensor.mount);
-        let mut spawned = world.spawn((SensorModel(sensor.rays), name, mount, OfConfiguration, MountedOn(entity)));
+        let mut spawned = world.spawn((SensorModel(sensor.rays), name, mount, OfConfiguration, MountedOn(robot)));
         sensor.noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
     }
-    Ok(entity)
+}
+
+/// The entities of a run's robots by world, in the order of their ids; `None` for one that is to be spawned.
+pub(crate) struct RobotEntities(pub(crate) Vec<Vec<Option<Entity>>>);
+
+impl RobotEntities {
+    /// Those of a run whose robots are all to be spawned.
+    pub(crate) fn none(config: &TourConfig) -> Self {
+        RobotEntities(config.worlds.iter().map(|w| vec![None; w.robots.len()]).collect())
+    }
+}
+
+/// Makes entities the robots of a run at its start, in the order of their ids as `order` gives it, which changes
+/// nothing. Returns them by id.
+///
+/// # Errors
+/// [`SpawnError`] for the first that cannot be.
+pub(crate) fn spawn_robots(
+    world: &mut World,
+    (config, seed): (&TourConfig, Seed),
+    (worlds, RobotEntities(entities)): (&[Entity], &RobotEntities),
+    order: &[usize],
+) -> Result<Vec<Entity>, SpawnError> {
+    let routes: Vec<RouteTours> = config.worlds.iter().map(|w| routes(w, seed)).collect::<Result<_, _>>()?;
+    let residents: Vec<(usize, &Resident, Option<Entity>)> = config
+        .worlds
+        .iter()
+        .zip(entities)
+        .enumerate()
+        .flat_map(|(w, (model, entities))| model.robots.iter().zip(entities).map(move |(r, &e)| (w, r, e)))
+        .collect();
+    let mut spawned: Vec<(usize, Entity)> = Vec::new();
+    for &id in order {
+        let (w, resident, entity) = residents[id];
+        let is_known = entity.is_some_and(|e| matches!(thing_of(world, e), Some(RunThing::Robot(_))));
+        let request = SpawnRequest {
+            entity,
+            with_sensors: !is_known,
+            seed,
+            id: RobotId(id as u32),
+            world: worlds[w],
+            model: &config.worlds[w],
+            resident,
+            sensor: config.sensor,
+            routes: &routes[w],
+            about: world.resource::<RobotKinds>().about(&resident.kind),
+        };
+        spawned.push((id, spawn(world, &request)?));
+    }
+    spawned.sort_unstable();
+    Ok(spawned.into_iter().map(|(_, entity)| entity).collect())
+}
+
+/// Spawns the robot of a request, of whichever kind it is.
+fn spawn(world: &mut World, request: &SpawnRequest) -> Result<Entity, SpawnError> {
+    let kind = &request.resident.kind;
+    match world.resource::<RobotKinds>().kind(kind).map(|kind| kind.spawn.clone()) {
+        Some(spawn) => spawn(world, request),
+        None => Err(SpawnError::UnknownKind {
+            robot: request.resident.name.clone(),
+            world: request.model.name.clone(),
+            kind: kind.clone(),
+        }),
+    }
+}
+
+/// Gives a robot of the run under way its components, on an entity of its own if it has lost it, with the values that it
+/// has at the present tick.
+pub(crate) fn respawn(world: &mut World, id: usize) {
+    let (config, seed) = (Arc::clone(world.resource::<RunConfig>().config()), world.resource::<Transport>().seed);
+    let found = config.worlds.iter().enumerate().flat_map(|(w, m)| m.robots.iter().map(move |r| (w, r))).nth(id);
+    let (Some((w, resident)), Some(&old)) = (found, world.resource::<Roster>().robots.get(id)) else { return };
+    let (entity, model) = (world.get_entity(old).is_ok().then_some(old), &config.worlds[w]);
+    let kind = world.resource::<RobotKinds>().kind(&resident.kind).map(|kind| kind.of_type);
+    let of_type = kind.and_then(|of_type| world.resource::<RobotKinds>().types().get(of_type).copied());
+    let (Some(of_type), Ok(routes)) = (of_type, routes(model, seed)) else { return };
+    let kept = entity.and_then(|entity| (of_type.last_values)(world, entity));
+    let (about, of_world) =
+        (world.resource::<RobotKinds>().about(&resident.kind), world.resource::<Roster>().worlds[w]);
+    let request = SpawnRequest {
+        entity,
+        with_sensors: false,
+        seed,
+        id: RobotId(id as u32),
+        world: of_world,
+        model,
+        resident,
+        sensor: config.sensor,
+        routes: &routes,
+        about,
+    };
+    // it was spawned before, from the same
+    let Ok(entity) = spawn(world, &request) else { return };
+    let roster = world.resource_mut::<Roster>().into_inner();
+    roster.robots[id] = entity;
+    roster.names.insert(resident.name.clone(), entity);
+    match kept {
+        Some(kept) => kept(world, entity),
+        None => {
+            let state = world.resource::<LatestFrame>().0.robots.get(id).cloned();
+            let ops = world.get::<RobotOps>(entity).copied();
+            state.zip(ops).and_then(|(state, ops)| (ops.decode)(world, entity, &state));
+        }
+    }
 }

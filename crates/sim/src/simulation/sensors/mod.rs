@@ -1,6 +1,6 @@
 //! The sensors of a run: which are in it, in which order, and what they read.
 
-mod changes;
+pub(super) mod dress;
 mod named;
 pub(super) mod refusal;
 pub(super) mod roster;
@@ -9,5 +9,4 @@ pub(super) mod start;
 pub(super) mod view;
 mod write;
 
-pub(super) use changes::{changed, removed};
 pub(super) use named::OfConfiguration;

@@ -7,8 +7,7 @@ use bevy::prelude::*;
 use motion_lab_core::sensors::SensorError;
 use motion_lab_core::worlds::MAX_SENSORS;
 
-/// A sensor that is not taken into the run, or a change of one that has no effect: a message to whoever shows the run,
-/// and kept in [`SensorRoster::refused`](crate::simulation::SensorRoster::refused).
+/// A sensor that is not taken into the run: a message to whoever shows the run, and kept in [`SensorRoster::refused`](crate::simulation::SensorRoster::refused).
 ///
 /// Prints as `robot "Rusty", sensor "front": 0 rays: there must be 1 to 100000`.
 #[derive(Message, Clone, Debug, PartialEq)]
@@ -47,9 +46,6 @@ pub enum SensorRefusal {
     /// A sensor that is mounted on nothing, or on what is no robot of the run.
     #[error("it is mounted on no robot of the run")]
     NoRobot,
-    /// A sensor that was added, changed or removed after the run had begun.
-    #[error("the sensors of a run are fixed from its first tick on: this change has no effect")]
-    Fixed,
 }
 
 impl fmt::Display for SensorRefused {

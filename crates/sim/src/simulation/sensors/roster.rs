@@ -16,21 +16,17 @@ const MAX_REFUSED: usize = 1000;
 
 /// The sensors of the run by their robots' ids, then by the bytes of their names. They are those of the sensor entities
 /// there are when the run leaves tick 0, whoever spawned them and in whatever order, and fixed from then on.
-#[derive(Resource, Debug, Default)]
+#[derive(Resource, Debug)]
 pub struct SensorRoster {
     pub(crate) sensors: Vec<RunSensor>,
     /// Scanners for the sensors, which many of them share.
     pub(crate) scanners: Scanners,
     refused: Vec<SensorRefused>,
-    /// Whether a sensor entity was spawned, changed or removed since the sensors were taken.
-    pub(super) stale: bool,
-    /// Whether the run has left tick 0.
-    pub(super) fixed: bool,
 }
 
 #[derive(Debug)]
 pub(crate) struct RunSensor {
-    /// The sensor's entity. It may be gone; the sensor stays.
+    /// The sensor's entity.
     pub(crate) entity: Entity,
     pub(crate) robot: Entity,
     pub(crate) id: u32,
@@ -44,12 +40,17 @@ pub(crate) struct RunSensor {
 }
 
 impl SensorRoster {
+    /// The roster of a run without sensors.
+    pub(crate) fn none() -> Self {
+        SensorRoster { sensors: Vec::new(), scanners: Scanners::default(), refused: Vec::new() }
+    }
+
     /// The sensors' entities, in order.
     pub fn entities(&self) -> impl Iterator<Item = Entity> {
         self.sensors.iter().map(|sensor| sensor.entity)
     }
 
-    /// The sensors that were not taken into the run, and the changes without effect, in the order they were met.
+    /// The sensors that were not taken into the run, in the order they were met.
     pub fn refused(&self) -> &[SensorRefused] {
         &self.refused
     }

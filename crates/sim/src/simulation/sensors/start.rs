@@ -6,39 +6,17 @@ use super::named::{are_alike, by_name, chosen, own_sensor, senses};
 use super::refusal::{SensorRefusal, SensorRefused};
 use super::roster::{RunSensor, SensorRoster};
 use super::write::write;
-use crate::simulation::tick::sense::sense_now;
+use crate::simulation::truth::thing::RunThing;
 use crate::simulation::{
-    MountedOn, RobotId, RobotName, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, Transport, state,
+    MountedOn, RobotId, RobotName, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, Transport,
 };
 use motion_lab_core::random::Stream;
 use motion_lab_core::sensors::SensorError;
 use motion_lab_core::worlds::{MAX_SENSORS, check_mount, check_name};
 
-/// Takes the sensor entities anew at tick 0, and with them the run's configuration, the scans and frame 0, if one was
-/// spawned, changed or removed since. Before a run has left tick 0 its sensor entities are the truth; after it this
-/// does nothing.
-///
-/// [`step`](crate::simulation::step) calls it; whoever reads frame 0 after spawning sensors calls it first.
-pub fn take_sensors_at_start(world: &mut World) {
-    let at_start = world.get_resource::<Transport>().is_some_and(|t| t.tick == 0);
-    if at_start && world.get_resource::<SensorRoster>().is_some_and(|r| r.stale && !r.fixed) {
-        take_sensors(world);
-        sense_now(world);
-        state::record(world);
-    }
-}
-
-/// Takes the sensors at tick 0 for good: the run leaves it.
-pub(crate) fn fix_sensors(world: &mut World) {
-    if world.get_resource::<SensorRoster>().is_some_and(|r| !r.fixed) {
-        take_sensors_at_start(world);
-        world.resource_mut::<SensorRoster>().fixed = true;
-    }
-}
-
 /// Makes the roster of the sensors that there are, and writes them into the run's configuration.
 pub(crate) fn take_sensors(world: &mut World) {
-    let mut roster = SensorRoster::default();
+    let mut roster = SensorRoster::none();
     let mut refusals = Vec::new();
     let robots = world.get_resource::<Roster>().map_or_else(Vec::new, |roster| roster.robots().to_vec());
     let own = own_sensor(world, &robots);
@@ -62,9 +40,9 @@ pub(crate) fn take_sensors(world: &mut World) {
     }));
     refusals.retain(|refused| roster.refuse(refused));
     roster.sort_fans();
-    for sensor in &roster.sensors {
+    for (k, sensor) in roster.sensors.iter().enumerate() {
         if let Ok(mut entity) = world.get_entity_mut(sensor.entity) {
-            entity.insert(Scan::default());
+            entity.insert((Scan::default(), RunThing::Sensor(k)));
         }
     }
     world.insert_resource(roster);

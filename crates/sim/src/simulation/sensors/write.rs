@@ -15,7 +15,7 @@ use motion_lab_core::worlds::{Resident, ResidentSensor};
 /// Makes the run's configuration say these sensors. `own` is the run's own sensor; `None` leaves the configuration's,
 /// as in a run without robots that sense. A configuration that says the same stays as it is, to the bit.
 pub(super) fn write(world: &mut World, sensors: &[RunSensor], own: Option<Option<RangeSensor>>) {
-    let Some(RunConfig(old)) = world.get_resource::<RunConfig>().cloned() else { return };
+    let Some(old) = world.get_resource::<RunConfig>().map(|config| Arc::clone(config.config())) else { return };
     let mut of_robot: BTreeMap<u32, Vec<&RunSensor>> = BTreeMap::new();
     sensors.iter().for_each(|sensor| of_robot.entry(sensor.id).or_default().push(sensor));
     let numbered = old.worlds.iter().enumerate().flat_map(|(w, model)| (0..model.robots.len()).map(move |r| (w, r)));

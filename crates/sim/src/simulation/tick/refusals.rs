@@ -2,6 +2,7 @@
 
 use bevy::prelude::Resource;
 
+use crate::run::ScriptError;
 use crate::simulation::{ChangeRefused, InputRefusal};
 use motion_lab_core::configuration::InputKind;
 
@@ -20,7 +21,7 @@ pub struct RefusedInput {
     pub reason: InputRefusal,
 }
 
-/// An input of a script that was refused, to a robot or to a world.
+/// An input that was refused, to a robot or to a world.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RefusedEvent {
     /// An input to a robot.
@@ -29,10 +30,14 @@ pub enum RefusedEvent {
     /// A change of a world.
     #[error(transparent)]
     Change(ChangeRefused),
+    /// An input that no script could hold: to an unknown robot, or with a channel out of range. It is none of the
+    /// script's.
+    #[error("{}", .0.problem)]
+    Command(ScriptError),
 }
 
-/// The inputs of its script that a run refused, to robots and to worlds. Each tick counts once, however often the run
-/// goes back to it. It is no part of the run.
+/// The inputs that a run refused, to robots and to worlds: those of its script, each tick counted once however often the
+/// run goes back to it, and commands that never came into the script. It is no part of the run.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Refusals {
     count: u64,

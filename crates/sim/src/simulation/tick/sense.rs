@@ -21,7 +21,7 @@ pub(crate) fn sense_now(world: &mut World) {
 /// robots of its world, not its own robot. A noisy sensor's readings are drawn anew for the tick, from its own stream.
 pub(crate) fn sense(world: &mut World) {
     let Some(mut roster) = world.get_resource_mut::<SensorRoster>() else { return };
-    let mut roster = std::mem::take(&mut *roster);
+    let mut roster = std::mem::replace(&mut *roster, SensorRoster::none());
     let SensorRoster { sensors, scanners, .. } = &mut roster;
     let mut scans = std::mem::take(&mut world.resource_mut::<LatestFrame>().0.scans);
     scans.resize_with(sensors.len(), || RobotScan { robot: 0, ranges: Arc::default() });

@@ -7,10 +7,12 @@ use super::crowd::NeighbourMemory;
 use super::hold::{self, Advance};
 use super::parallel::each;
 use super::world_crowds::WorldCrowds;
+use crate::simulation::components::CutOf;
 use crate::simulation::robot::simulated::canonical;
+use crate::simulation::truth::last_values::LastValues;
 use crate::simulation::{
-    Configuration, Contacts, Control, Cut, CutOf, DriveMode, ResidesIn, RobotId, RobotModel, SceneRevision,
-    SimulatedRobot, TickMotion, WorldScene,
+    Configuration, Contacts, Control, Cut, DriveMode, OwnState, PreviousConfiguration, ResidesIn, RobotId, RobotModel,
+    SceneRevision, SimulatedRobot, TickMotion, WorldScene,
 };
 use motion_lab_core::collision::{Scene, Surroundings, is_free_among};
 use motion_lab_core::configuration::Configuration as Coordinates;
@@ -46,7 +48,8 @@ pub(crate) fn cut<R: SimulatedRobot>(
         if let Some(crowd) = crowds.of(id) {
             crowd.others(id.0, room);
         }
-        let of = room.parts.is_empty().then_some(CutOf { configuration: q.0, control: u.0, scene: revision });
+        let of =
+            room.parts.is_empty().then_some(CutOf { robot: id, configuration: q.0, control: u.0, scene: revision });
         if of.is_none() || cut.of != of {
             *cut = Cut { of, ..cut_among(scene, &room.parts, motion) };
         }
@@ -76,12 +79,17 @@ pub(crate) struct Settled<R: SimulatedRobot> {
     configuration: &'static mut Configuration<R>,
     contacts: &'static mut Contacts<R>,
     mode: &'static mut DriveMode<R>,
+    previous: &'static PreviousConfiguration<R>,
+    control: &'static Control<R>,
+    own: &'static OwnState<R>,
+    kept: &'static mut LastValues<R>,
 }
 
 /// Advances every robot of a kind along its cut motion, and counts contacts. A motion that meets the cut motion of a
 /// robot with a lower id in its world is in contact; a robot that contact holds then stays where it started.
 pub(crate) fn settle<R: SimulatedRobot>(mut crowds: ResMut<WorldCrowds>, mut robots: Query<Settled<R>>) {
-    for SettledItem { id: &id, model, motion, cut, mut configuration, mut contacts, mut mode } in &mut robots {
+    for settled in &mut robots {
+        let SettledItem { id: &id, model, motion, cut, mut configuration, mut contacts, mut mode, .. } = settled;
         let (robot, motion) = (&model.0, motion.0.as_ref());
         let met = motion.is_some() && crowds.has_met(id);
         if let Some(motion) = motion {
@@ -98,6 +106,8 @@ pub(crate) fn settle<R: SimulatedRobot>(mut crowds: ResMut<WorldCrowds>, mut rob
         if let Some(crowd) = crowds.of_mut(id) {
             crowd.settle(id.0, &robot.fitted(&q).footprint(&q));
         }
+        let SettledItem { previous, control, own, mut kept, .. } = settled;
+        kept.keep(&configuration, previous, (control, own), (&contacts, &mode));
     }
 }
 

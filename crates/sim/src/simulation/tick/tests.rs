@@ -91,7 +91,7 @@ fn compare(world: &World) -> (usize, usize) {
         .map(|&e| start::<Rusty>(world, e).or_else(|| start::<Hitch>(world, e)).or_else(|| start::<Reach<2>>(world, e)))
         .map(Option::unwrap)
         .collect();
-    let frame = &world.resource::<LatestFrame>().0;
+    let frame = world.resource::<LatestFrame>().frame();
     let now: Vec<Footprint> =
         robots.iter().map(|&e| (world.get::<RobotOps>(e).unwrap().footprint)(world, e).unwrap()).collect();
     let (mut cut_by_others, mut meeting) = (0, 0);

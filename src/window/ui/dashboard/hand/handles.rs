@@ -12,7 +12,7 @@ use crate::window::ui::number::NumberInput;
 use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::touch::pinched;
 use crate::window::ui::{CockpitRobot, Command, FrameColours, Grasp, UiState, keys};
-use motion_lab_core::configuration::{Configuration, Coordinates, Tn};
+use motion_lab_core::configuration::Tn;
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::num::wrap;
 use motion_lab_core::picture::{Dash, Drawing, Fit, Item, Line, Picture, Role, footprint, in_signs};
@@ -24,15 +24,10 @@ use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
 const DOT: f32 = 10.0;
 /// Diameter of the area that takes a mouse, points. For a fingertip it is as large as any other control.
 const HANDLE_TARGET: f32 = 28.0;
+/// Radius of the ring about the pointer's wish, metres.
+const WISH_RADIUS: f64 = 0.05;
 /// How far an arrow key turns a joint, radians.
 const NUDGE: f64 = 0.02;
-
-/// The joint angles with which the last two joints of one of the lab's arms bring its tip to `to`, or as near as they
-/// reach; `None` for another arm.
-fn followed(robot: &CockpitRobot, to: Point2, bends_down: bool) -> Option<Coordinates> {
-    let q = AnyRobot::of_kind(&robot.kind, to_come(robot))?.1;
-    Some(robot.model?.dragged(&q, to, bends_down).coordinates())
-}
 
 /// The sign of a joint's angle, counted from 0, as the pictures have it.
 fn joint_sign(joint: usize) -> String {
@@ -131,22 +126,20 @@ fn handle(
     if response.drag_started() || response.clicked() {
         response.request_focus();
     }
-    let is_tip = link + 1 == links && links > 1;
     if response.drag_started() {
         checkpoint(commands);
-        // a straight or folded arm bends back to the side that it came from
-        let bends_down = to_come(robot).last().is_some_and(|angle| *angle >= 0.0);
-        ui.data_mut(|data| data.insert_temp(id, bends_down));
     }
     if response.dragged()
         && !pinched(ui)
         && let Some(pointer) = response.interact_pointer_pos()
     {
-        let to = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
-        let bends_down = ui.data(|data| data.get_temp(id)).unwrap_or(true);
-        let followed = if is_tip { followed(robot, to, bends_down) } else { None };
-        let to = followed.unwrap_or_else(|| dragged(to_come(robot), points, link, to));
+        let wish = fit.world_from_screen([f64::from(pointer.x), f64::from(pointer.y)]);
+        let to = dragged(to_come(robot), points, link, wish);
         move_to(robot, &to, commands);
+        let there = joints(&turned(&robot.footprint, &to));
+        if let Some(&end) = there.get(link + 1) {
+            canvas::paint(painter, &over(wished(end, wish)), fit, look);
+        }
     }
     let focused = response.has_focus();
     if focused {
@@ -154,15 +147,8 @@ fn handle(
     }
     let held = response.dragged() || response.has_focus();
     if held || response.hovered() {
-        // where this handle can go: by keys, and any but the tip by a drag, on a circle
-        let length = |link: usize| (points[link + 1] - points[link]).norm();
-        let mut circles = vec![circle("its circle", points[link], length(link))];
-        if is_tip && robot.model.is_some() && (response.dragged() || !response.has_focus()) {
-            let (one, other) = (length(link - 1), length(link));
-            circles = vec![circle("its outer circle", points[link - 1], one + other)];
-            circles.push(circle("its inner circle", points[link - 1], (one - other).abs()));
-            circles.retain(|item| !matches!(item.drawing, Drawing::Disc { radius, .. } if radius < 1e-9));
-        }
+        // where this handle can go: its joint alone turns
+        let mut circles = vec![circle("its circle", points[link], (points[link + 1] - points[link]).norm())];
         if link + 1 < links {
             let last = points[links];
             circles.push(circle("the circle of the tip", points[link], (last - points[link]).norm()));
@@ -174,6 +160,13 @@ fn handle(
     painter.circle(at, 0.5 * DOT * grown, look.colour(Role::Paper), Stroke::new(2.0, look.colour(role)));
     response.on_hover_cursor(if held { CursorIcon::Grabbing } else { CursorIcon::Grab });
     focused
+}
+
+/// The pointer's wish as a ghost: where it wants the handle, and how far that is from where the handle can go.
+fn wished(end: Point2, wish: Point2) -> Vec<Item> {
+    let line = Item::new("handle/wish", "the pointer's wish", Role::Path, Drawing::Polyline(vec![end, wish]))
+        .stroked(Line::solid(1.0).dashed(Dash::Dashed));
+    vec![line, circle("where the pointer is", wish, WISH_RADIUS)]
 }
 
 fn circle(name: &str, centre: Point2, radius: f64) -> Item {
