@@ -1,6 +1,6 @@
 //! Answers as JSON.
 
-use motion_lab::collision::{Checker, Collision, EdgeVerdict, HitBy, ObstacleId, ParryScene, Scene, Witness};
+use motion_lab::collision::{Checker, EdgeVerdict, HitBy, ObstacleId, ParryScene, Scene, Witness};
 use motion_lab::configuration::AnyConfiguration;
 use motion_lab::export::JsonNumber;
 use motion_lab::geometry::{Point2, Pose2, Vector2};
