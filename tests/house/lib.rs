@@ -68,10 +68,23 @@ fn each_module_uses_only_those_above_it() {
 }
 
 #[test]
-fn parry_is_imported_in_one_file() {
-    let imports = |s: &Source| s.lines.iter().any(|l| l.contains("parry2d"));
-    let users: Vec<String> = sources().into_iter().filter(imports).map(|s| s.file).collect();
-    assert_eq!(users, ["crates/core/src/collision/broad/bvh.rs"]);
+fn parry_is_imported_in_one_folder() {
+    let imports = |s: &Source| s.lines.iter().any(|l| l.contains("parry2d_f64::"));
+    let mut users: Vec<String> = sources().into_iter().filter(imports).map(|s| s.file).collect();
+    users.sort_unstable();
+    let folder = ["black_box", "box_tree", "pieces"].map(|file| format!("crates/core/src/collision/parry/{file}.rs"));
+    assert_eq!(users, folder);
+}
+
+/// The benches' rivals compile this file by itself, with parry as its users build it.
+#[test]
+fn the_rivals_file_uses_nothing_but_parry() {
+    let file = fs::read_to_string(root().join("crates/core/src/collision/parry/pieces.rs")).unwrap();
+    let uses: Vec<&str> = file.lines().filter(|line| line.starts_with("use ")).collect();
+    assert!(uses.len() > 3 && uses.iter().all(|line| line.starts_with("use parry2d_f64::")), "{uses:?}");
+    assert!(!file.contains("crate::") && !file.contains("super::"), "it would not compile elsewhere");
+    let rivals = fs::read_to_string(root().join("benches/table/rivals/mod.rs")).unwrap();
+    assert!(rivals.contains("collision/parry/pieces.rs\"]"), "the rivals no longer use it");
 }
 
 #[test]

@@ -42,7 +42,7 @@ impl Mover for Arm {
     }
 
     fn meets(&self, edge: &Edge, s: f64) -> bool {
-        self.poses(edge, s).iter().zip(&self.links).any(|(pose, link)| self.obstacles.meet(pose, link))
+        self.poses(edge, s).iter().zip(&self.links).any(|(pose, link)| self.obstacles.pieces.meets(pose, link))
     }
 
     /// The second link turns about an elbow that goes along the chords of its arc.

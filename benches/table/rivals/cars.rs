@@ -38,7 +38,7 @@ impl Mover for Car {
     }
 
     fn meets(&self, edge: &Edge, s: f64) -> bool {
-        self.obstacles.meet(&self.pose(edge, s), &self.body)
+        self.obstacles.pieces.meets(&self.pose(edge, s), &self.body)
     }
 
     fn cast(&self, edge: &Edge, any: bool) -> Option<f64> {

@@ -5,10 +5,9 @@
 
 use std::rc::Rc;
 
-use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::{Pose, Vector};
+use parry2d_f64::query::ClosestPoints;
 use parry2d_f64::query::details::closest_points_segment_segment;
-use parry2d_f64::query::{self, ClosestPoints, Ray, RayCast, ShapeCastOptions};
 use parry2d_f64::shape::{Ball, Capsule, Segment, Shape};
 
 use super::distances::nearest;
@@ -21,23 +20,7 @@ fn ends(case: &[f64]) -> [Vector; 2] {
 
 /// The parameter of a disc's first contact from `a` to `b`; infinite without one.
 fn cast(obstacles: &Obstacles, radius: f64, [a, b]: [Vector; 2]) -> f64 {
-    let (ball, pose, way) = (Ball::new(radius), Pose::from_translation(a), b - a);
-    let ray = Ray::new(a, way);
-    let found = obstacles.tree.find_best(
-        1.0 + 1e-12,
-        |node, best| {
-            let margin = Vector::splat(radius);
-            let fat = Aabb { mins: node.mins() - margin, maxs: node.maxs() + margin };
-            fat.cast_local_ray(&ray, best, true).unwrap_or(f64::MAX)
-        },
-        |i, best| {
-            let (at, obstacle) = &obstacles.shapes[i as usize];
-            let options = ShapeCastOptions::with_max_time_of_impact(if best < 1.0 { best } else { 1.0 });
-            let hit = query::cast_shapes(&pose, way, &ball, at, Vector::ZERO, &**obstacle, options);
-            hit.ok().flatten().map(|hit| hit.time_of_impact)
-        },
-    );
-    found.map_or(f64::INFINITY, |(_, time)| time)
+    obstacles.pieces.cast(&Pose::from_translation(a), b - a, &Ball::new(radius)).unwrap_or(f64::INFINITY)
 }
 
 /// Settings: the radius. A case: where the disc's centre begins and ends. The answer is 1 for free, 0 for not.
@@ -51,16 +34,16 @@ pub fn free(task: &Task) -> Vec<Box<dyn Contender>> {
         name: "parry, one capsule",
         ask: move |case: usize| {
             let [a, b] = w[case];
-            f64::from(u8::from(!o.meet(&Pose::IDENTITY, &Capsule::new(a, b, radius))))
+            f64::from(u8::from(!o.pieces.meets(&Pose::IDENTITY, &Capsule::new(a, b, radius))))
         },
     }));
-    if obstacles.segments.len() == obstacles.shapes.len() {
+    if obstacles.segments.len() == obstacles.pieces.shapes.len() {
         all.push(Box::new(By {
             name: "parry, segments' closest points",
             ask: move |case: usize| {
                 let [a, b] = ways[case];
                 let (way, around) = (Segment::new(a, b), Capsule::new(a, b, radius).local_aabb());
-                let hit = obstacles.tree.intersect_aabb(&around).any(|i| {
+                let hit = obstacles.pieces.tree.intersect_aabb(&around).any(|i| {
                     let wall = &obstacles.segments[i as usize];
                     closest_points_segment_segment(&Pose::IDENTITY, &way, wall, radius) != ClosestPoints::Disjoint
                 });

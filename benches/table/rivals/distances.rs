@@ -5,51 +5,22 @@
 
 use std::rc::Rc;
 
-use parry2d_f64::bounding_volume::Aabb;
 use parry2d_f64::math::{Pose, Vector};
-use parry2d_f64::partitioning::BvhNode;
-use parry2d_f64::query::{self, ClosestPoints};
 use parry2d_f64::shape::{Capsule, Segment, Shape};
 
 use super::obstacles::Obstacles;
 use super::{By, Contender, Task};
-
-/// The distance of two boxes.
-fn gap(around: &Aabb, node: &BvhNode) -> f64 {
-    let (below, above) = (node.mins() - around.maxs, around.mins - node.maxs());
-    below.max(above).max(Vector::ZERO).length()
-}
 
 /// The least distance of some shapes in world coordinates, and the witnesses.
 pub fn nearest<'a>(
     obstacles: &Obstacles,
     shapes: impl Iterator<Item = &'a dyn Shape>,
     limit: f64,
-) -> (f64, Option<(Vector, Vector)>) {
+) -> (f64, Option<[Vector; 2]>) {
     let mut nearest = (limit, None);
     for shape in shapes {
-        let around = shape.compute_local_aabb();
-        let mut points = std::cell::Cell::new(None);
-        let found = obstacles.tree.find_best(
-            nearest.0,
-            |node, _| gap(&around, node),
-            |i, best| {
-                let (at, obstacle) = &obstacles.shapes[i as usize];
-                match query::closest_points(&Pose::IDENTITY, shape, at, &**obstacle, best).ok()? {
-                    ClosestPoints::Intersecting => Some(0.0),
-                    ClosestPoints::Disjoint => None,
-                    ClosestPoints::WithinMargin(a, b) => {
-                        let distance = a.distance(b);
-                        if distance < best {
-                            points.set(Some((a, b)));
-                        }
-                        Some(distance)
-                    }
-                }
-            },
-        );
-        if let Some((_, distance)) = found {
-            nearest = (distance, points.get_mut().take());
+        if let Some(near) = obstacles.pieces.nearest(&Pose::IDENTITY, shape, nearest.0) {
+            nearest = (near.distance, near.points);
         }
         if nearest.0 <= 0.0 {
             break;

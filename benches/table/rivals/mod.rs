@@ -1,11 +1,15 @@
 //! The table's work by parry2d-f64, in its own types. Three programs are built from these files: the table, the
-//! WebAssembly bench, and `benches/rivals`, which has parry as its users build it.
+//! WebAssembly bench, and `benches/rivals`, which has parry as its users build it. Obstacles, and the questions about
+//! them that the black box of the core asks too, are the core's own file on them.
 
 mod arms;
 mod cars;
 mod discs;
 mod distances;
 mod obstacles;
+#[allow(dead_code)]
+#[path = "../../../crates/core/src/collision/parry/pieces.rs"]
+mod pieces;
 mod rectangles;
 mod samples;
 mod scans;

@@ -11,6 +11,7 @@ use parry2d_f64::query::{self, NonlinearRigidMotion};
 use parry2d_f64::shape::Shape;
 
 use super::obstacles::Obstacles;
+use super::pieces::ParryShape;
 use super::{By, Contender};
 
 /// The least number of a sample that meets something, of 0 to `last`; `None` if none does. Samples are visited by
@@ -48,8 +49,8 @@ pub fn first_contact(
     let sagitta = 0.125 * reach * (motion.angvel * limit) * (motion.angvel * limit);
     let around = shape.compute_aabb(&begin).merged(&shape.compute_aabb(&end)).loosened(sagitta);
     let mut first = None;
-    for i in obstacles.tree.intersect_aabb(&around) {
-        let (at, obstacle) = &obstacles.shapes[i as usize];
+    for i in obstacles.pieces.tree.intersect_aabb(&around) {
+        let ParryShape { pose: at, shape: obstacle } = &obstacles.pieces.shapes[i as usize];
         let still = NonlinearRigidMotion::constant_position(*at);
         let until = first.unwrap_or(limit);
         let hit = query::cast_shapes_nonlinear(motion, shape, &still, &**obstacle, 0.0, until, true);

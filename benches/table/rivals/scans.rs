@@ -24,9 +24,10 @@ impl Contender for Scan {
     }
 
     fn work(&mut self, case: usize) -> f64 {
-        let Obstacles { segments, tree, .. } = &*self.obstacles;
+        let Obstacles { segments, pieces } = &*self.obstacles;
         for (ray, range) in self.fans[case].iter().zip(&mut self.ranges) {
-            let hit = tree.cast_ray(ray, self.range, |i, best| segments[i as usize].cast_local_ray(ray, best, true));
+            let hit =
+                pieces.tree.cast_ray(ray, self.range, |i, best| segments[i as usize].cast_local_ray(ray, best, true));
             *range = hit.map_or(f64::INFINITY, |(_, range)| range);
         }
         self.ranges[0]

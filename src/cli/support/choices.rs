@@ -9,6 +9,7 @@ use clap::{Arg, Command, Error};
 use motion_lab::capture::CaptureForm;
 use motion_lab::configuration::RobotKind;
 use motion_lab::picture::Theme;
+use motion_lab::plans::CheckerName;
 use motion_lab::run::LogKind;
 use motion_lab::worlds::World;
 
@@ -60,6 +61,11 @@ pub fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
         let found = values.into_iter().find(|(known, ..)| *known == name);
         found.map(|(_, value, _)| value).ok_or("it is none of them")
     })
+}
+
+/// Reads the name of a checker.
+pub fn checker() -> impl TypedValueParser<Value = CheckerName> {
+    one_of(CheckerName::ALL.map(|name| (name.id(), name, name.words())))
 }
 
 /// Reads the name of a theme.

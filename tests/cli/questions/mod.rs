@@ -1,5 +1,6 @@
 //! Queries, plans and figures.
 
+pub mod black_box;
 pub mod capture;
 pub mod certificates;
 pub mod plan;

@@ -18,10 +18,25 @@ use crate::robots::{ConfigurationError, Hitch, Motion, Reach, Robot, RustyDisc};
 /// assert!(c.is_free(&a) && c.is_free(&b));
 /// assert!(!c.edge_free(&a, &b)); // the post stands between two free configurations
 /// ```
-#[derive(Clone, Debug)]
+///
+/// A checker may hand its questions to a [black box](Self::with_black_box). Its proofs, the verdicts and certificates,
+/// stay those of the exact scene.
+#[derive(Clone)]
 pub struct Checker<R> {
     scene: Arc<Scene>,
     robot: R,
+    /// Who answers instead of the scene.
+    black_box: Option<Arc<dyn Collision>>,
+}
+
+impl<R: std::fmt::Debug> std::fmt::Debug for Checker<R> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Checker")
+            .field("scene", &self.scene)
+            .field("robot", &self.robot)
+            .field("black_box", &self.black_box.is_some())
+            .finish()
+    }
 }
 
 /// The checker of an arm with N links.
@@ -39,7 +54,40 @@ pub type CarChecker = Checker<Hitch>;
 impl<R: Robot> Checker<R> {
     /// The robot in the scene.
     pub fn new(scene: impl Into<Arc<Scene>>, robot: R) -> Self {
-        Checker { scene: scene.into(), robot }
+        Checker { scene: scene.into(), robot, black_box: None }
+    }
+
+    /// The same robot in the same scene, whose questions a black box answers: [`is_free`](Self::is_free),
+    /// [`distance`](Self::distance), [`witness`](Self::witness) and the gradients by the question of the same name,
+    /// [`edge_free`](Self::edge_free) and [`motion_free`](Self::motion_free) by [`swept`](Collision::swept) from the
+    /// motion's first footprint to its last. The black box must number its obstacles as the scene does.
+    ///
+    /// Nothing of that is proven. Verdicts, [`last_free`](Self::last_free) and certificates are proofs and stay those
+    /// of the scene, whatever the black box says. What a planner finds by it is an
+    /// [`UnprovenPath`](crate::planning::UnprovenPath).
+    ///
+    /// ```
+    /// use motion_lab_core::collision::ParryScene;
+    /// use motion_lab_core::prelude::*;
+    /// let exact = ChainChecker::new(Scene::workbench(), Reach::<2>::workbench());
+    /// let chapter = exact.clone().with_black_box(ParryScene::of_scene(exact.scene()));
+    /// let (a, b) = (T2::new(2.2, 0.5), T2::new(2.9, 0.5));
+    /// assert!(!exact.edge_free(&a, &b)); // the post stands between
+    /// assert!(chapter.edge_free(&a, &b)); // a cast that does not turn goes past it
+    /// ```
+    #[must_use]
+    pub fn with_black_box(self, black_box: impl Collision + 'static) -> Self {
+        Checker { black_box: Some(Arc::new(black_box)), ..self }
+    }
+
+    /// The black box that answers instead of the scene, if there is one.
+    pub fn black_box(&self) -> Option<&dyn Collision> {
+        self.black_box.as_deref()
+    }
+
+    /// Who answers the questions about a configuration.
+    fn asked(&self) -> &dyn Collision {
+        self.black_box.as_deref().unwrap_or(&*self.scene)
     }
 
     /// The scene.
@@ -62,13 +110,13 @@ impl<R: Robot> Checker<R> {
     pub fn is_free(&self, q: &R::Configuration) -> bool {
         self.robot.check(q).is_ok()
             && self.robot.is_within_limits(q)
-            && !self.scene.intersects(&self.robot.footprint(q))
+            && !self.asked().intersects(&self.robot.footprint(q))
     }
 
     /// The clearance at `q`, metres: 0 in contact, and for a configuration that is not this robot's. The robot's own
     /// limits don't matter here.
     pub fn distance(&self, q: &R::Configuration) -> f64 {
-        if self.robot.check(q).is_err() { 0.0 } else { self.scene.distance(&self.robot.footprint(q)) }
+        if self.robot.check(q).is_err() { 0.0 } else { self.asked().distance(&self.robot.footprint(q)) }
     }
 
     /// The nearest points at `q`; `None` in an empty scene.
@@ -77,7 +125,7 @@ impl<R: Robot> Checker<R> {
     /// [`ConfigurationError`] when `q` is not a configuration of this robot.
     pub fn witness(&self, q: &R::Configuration) -> Result<Option<Witness>, ConfigurationError> {
         self.robot.check(q)?;
-        Ok(self.scene.witness(&self.robot.footprint(q)))
+        Ok(self.asked().witness(&self.robot.footprint(q)))
     }
 
     /// The verdict on the straight line of the configuration chart from `a` to `b`, angles the short way round.
@@ -142,9 +190,12 @@ impl<R: Robot> Checker<R> {
     }
 
     /// Whether the edge is proven free: true wherever [`edge`](Self::edge) says `Free`, false wherever it says `Hit`.
-    /// Several times as fast, because it computes neither the clearance along the edge nor the first contact.
+    /// Several times as fast, because it computes neither the clearance along the edge nor the first contact. With a
+    /// black box, whether that calls it free.
     pub fn edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> bool {
-        if let Some(free) = self.disc_edge_free(a, b) {
+        if self.black_box.is_none()
+            && let Some(free) = self.disc_edge_free(a, b)
+        {
             return free;
         }
         self.robot.edge(a, b).is_ok_and(|edge| self.motion_free(&edge))
@@ -174,8 +225,13 @@ impl<R: Robot> Checker<R> {
 
     /// Whether any motion of this robot is proven free, an edge or the arc of a drive: true wherever
     /// [`motion_verdict`](Self::motion_verdict) says `Free`, false wherever it says `Hit`. Faster than the verdict,
-    /// because it computes neither the clearance nor the first contact.
+    /// because it computes neither the clearance nor the first contact. With a black box, whether that calls the motion
+    /// free.
     pub fn motion_free(&self, motion: &impl Motion<Configuration = R::Configuration>) -> bool {
+        if let Some(black_box) = self.black_box() {
+            let hits = || black_box.swept(&motion.footprint_at(0.0), &motion.footprint_at(1.0));
+            return motion.leaves_limits().is_none() && !hits();
+        }
         is_free(&self.scene, motion, MarchOptions::default().budget)
     }
 

@@ -44,8 +44,8 @@ pub use nearest::{Nearest, Neighbour};
 pub use no_path::NoPath;
 #[doc(hidden)]
 pub use path::is_same;
-pub use path::{CertifiedPath, Leg, LinePath, PathError};
-pub use planner::{Planner, accepted, solve};
+pub use path::{CertifiedPath, Leg, LinePath, PathError, UnprovenPath};
+pub use planner::{Planner, accepted, called_free, solve, solve_unproven};
 pub use planners::{
     Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
 };

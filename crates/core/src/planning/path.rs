@@ -1,4 +1,4 @@
-//! `CertifiedPath`, a path with the certificate of its whole length.
+//! `CertifiedPath`, a path with the certificate of its whole length, and `UnprovenPath`, which is only called free.
 
 use super::Metric;
 use crate::collision::{Certificate, CertificateError, Checker, Collision, EdgeVerdict, verify_certificate};
@@ -82,6 +82,12 @@ pub enum PathError {
     /// A path that does not lead from the problem's start to its goal.
     #[error("the path does not lead from the start to the goal")]
     OtherEnds,
+    /// A leg that the checker does not call free.
+    #[error("leg {0} is not called free")]
+    Refused(usize),
+    /// A path that a black box calls free: there is no certificate.
+    #[error("a black box calls it free, and nothing of it is proven")]
+    Unproven,
     /// No path, although the planner says that it has one.
     #[error("there is none")]
     Missing,
@@ -165,21 +171,92 @@ impl<M: Motion> CertifiedPath<M> {
     }
 }
 
+/// A path that a checker calls free along every leg, such as one with a
+/// [black box](crate::collision::Checker::with_black_box). Nothing of it is proven: it has neither a certificate nor a
+/// clearance, and it may lead through a wall.
+#[derive(Clone, Debug)]
+pub struct UnprovenPath<M> {
+    motions: Vec<M>,
+}
+
+impl<M: Motion> UnprovenPath<M> {
+    /// The path of these motions, if the checker calls each of them free.
+    ///
+    /// # Errors
+    /// [`PathError`]: no motion, motions that do not join, or one that is not called free.
+    pub fn try_new<R: Robot<Configuration = M::Configuration>>(
+        checker: &Checker<R>,
+        motions: Vec<M>,
+    ) -> Result<Self, PathError> {
+        if motions.is_empty() {
+            return Err(PathError::Empty);
+        }
+        for (leg, motion) in motions.iter().enumerate() {
+            if leg > 0 && motions[leg - 1].at(1.0) != motion.at(0.0) {
+                return Err(PathError::Broken(leg));
+            }
+            if !checker.motion_free(motion) {
+                return Err(PathError::Refused(leg));
+            }
+        }
+        Ok(UnprovenPath { motions })
+    }
+
+    /// The legs' motions, at least one.
+    pub fn motions(&self) -> &[M] {
+        &self.motions
+    }
+
+    /// Where the path begins.
+    pub fn start(&self) -> M::Configuration {
+        self.motions[0].at(0.0)
+    }
+
+    /// Where the path ends.
+    pub fn goal(&self) -> M::Configuration {
+        self.motions[self.motions.len() - 1].at(1.0)
+    }
+
+    /// The corners: the start, and the end of each leg.
+    pub fn corners(&self) -> Vec<M::Configuration> {
+        std::iter::once(self.start()).chain(self.motions.iter().map(|motion| motion.at(1.0))).collect()
+    }
+}
+
+impl<M: Motion + Clone> UnprovenPath<M> {
+    /// The same path with its proof by the checker's exact scene, if it has one.
+    ///
+    /// # Errors
+    /// [`PathError::NotFree`] says which leg is not proven free, where it hits and what.
+    pub fn certified<R: Robot<Configuration = M::Configuration>>(
+        &self,
+        checker: &Checker<R>,
+    ) -> Result<CertifiedPath<M>, PathError> {
+        CertifiedPath::try_new(checker, self.motions.iter().cloned())
+    }
+}
+
+/// The chart's straight lines through these corners; of a single corner the line that stays there.
+pub(super) fn chart_lines<R: Robot>(
+    checker: &Checker<R>,
+    corners: &[R::Configuration],
+) -> Result<Vec<ChartLine<R>>, PathError> {
+    let line =
+        |corner: usize, a, b| checker.robot().edge(a, b).map_err(|source| PathError::Configuration { corner, source });
+    match corners {
+        [] => Err(PathError::Empty),
+        [only] => line(0, only, only).map(|line| vec![line]),
+        _ => corners.windows(2).enumerate().map(|(i, ends)| line(i, &ends[0], &ends[1])).collect(),
+    }
+}
+
 impl<R: Robot> CertifiedPath<ChartLine<R>> {
     /// The path of the chart's straight lines through these corners. A single corner gives the path that stays there.
     ///
     /// # Errors
     /// [`PathError`]: no corner, one that is not a configuration of the robot, or a line that is not proven free.
     pub fn through(checker: &Checker<R>, corners: &[R::Configuration]) -> Result<Self, PathError> {
-        let line = |corner: usize, a, b| {
-            checker.robot().edge(a, b).map_err(|source| PathError::Configuration { corner, source })
-        };
-        let lines: Result<Vec<_>, _> = match corners {
-            [] => return Err(PathError::Empty),
-            [only] => line(0, only, only).map(|line| vec![line]),
-            _ => corners.windows(2).enumerate().map(|(i, ends)| line(i, &ends[0], &ends[1])).collect(),
-        };
-        Self::try_new(checker, lines?)
+        Self::try_new(checker, chart_lines(checker, corners)?)
     }
 
     /// The length of the path by a metric.

@@ -1,6 +1,8 @@
 //! `Planner`, the one interface of planners, and `solve`, which runs one.
 
-use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, Progress, Search, Sensed, is_same};
+use super::{
+    Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, Progress, Search, Sensed, UnprovenPath, is_same,
+};
 use crate::collision::Problem;
 use crate::cspace::CellMap;
 use crate::robots::{ChartLine, Motion, Robot};
@@ -75,11 +77,46 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> + 'stati
 /// a planner that counts nothing is bounded as well.
 ///
 /// # Errors
-/// [`NoPath`] says why there is none.
+/// [`NoPath`] says why there is none. A path that a black box calls free is refused: [`solve_unproven`] returns it.
 pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &mut (impl Planner<R, M> + ?Sized),
     bounds: &Bounds,
 ) -> Result<CertifiedPath<M>, NoPath> {
+    work(planner, bounds)?;
+    Ok(accepted(planner)?)
+}
+
+/// As [`solve`], of a planner whose checker has a [black box](crate::collision::Checker::with_black_box): its path is
+/// what that calls free, and nothing of it is proven.
+///
+/// # Errors
+/// [`NoPath`] says why there is none, or why the path is refused: it leads elsewhere, or the checker does not call it
+/// free.
+///
+/// ```
+/// use motion_lab_core::collision::ParryScene;
+/// use motion_lab_core::planning::{Bounds, RrtConnect, solve_unproven};
+/// use motion_lab_core::prelude::*;
+/// let exact = ChainChecker::new(Scene::workbench(), Reach::<2>::workbench());
+/// let checker = exact.clone().with_black_box(ParryScene::of_scene(exact.scene()));
+/// let problem = Problem::try_new(checker, T2::new(2.2, 0.5), T2::new(2.9, 0.5), Seed(2005))?;
+/// let path = solve_unproven(&mut RrtConnect::new(problem), &Bounds::default())?;
+/// assert!(path.certified(&exact).is_err()); // it leads through the post
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn solve_unproven<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
+    planner: &mut (impl Planner<R, M> + ?Sized),
+    bounds: &Bounds,
+) -> Result<UnprovenPath<M>, NoPath> {
+    work(planner, bounds)?;
+    Ok(called_free(planner)?)
+}
+
+/// Steps a planner until it says that it has a path.
+fn work<R: Robot, M: Motion<Configuration = R::Configuration> + 'static>(
+    planner: &mut (impl Planner<R, M> + ?Sized),
+    bounds: &Bounds,
+) -> Result<(), NoPath> {
     let mut steps = 0;
     loop {
         let counted = planner.growth().effort();
@@ -91,7 +128,7 @@ pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'st
         match planner.step() {
             Progress::Growing => {}
             Progress::Ended(reason) => return Err(reason),
-            Progress::Solved => return Ok(accepted(planner)?),
+            Progress::Solved => return Ok(()),
         }
     }
 }
@@ -99,14 +136,36 @@ pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'st
 /// The planner's path, if it stands the check of [`solve`].
 ///
 /// # Errors
-/// [`PathError`]: there is none, it leads elsewhere, or the verifier refuses it.
+/// [`PathError`]: there is none, nothing of it is proven, it leads elsewhere, or the verifier refuses it.
 pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &(impl Planner<R, M> + ?Sized),
 ) -> Result<CertifiedPath<M>, PathError> {
-    let (path, problem) = (planner.path().ok_or(PathError::Missing)?, planner.problem());
+    let is_unproven = planner.search().unproven.is_some();
+    let none = || if is_unproven { PathError::Unproven } else { PathError::Missing };
+    let (path, problem) = (planner.path().ok_or_else(none)?, planner.problem());
     if !is_same(&path.start(), &problem.start()) || !problem.is_goal(&path.goal()) {
         return Err(PathError::OtherEnds);
     }
     path.verify(problem.checker().scene())?;
     Ok(path.clone())
+}
+
+/// The planner's path, if it stands the check of [`solve_unproven`].
+///
+/// # Errors
+/// [`PathError`]: there is none, it leads elsewhere, or the checker does not call it free.
+pub fn called_free<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
+    planner: &(impl Planner<R, M> + ?Sized),
+) -> Result<UnprovenPath<M>, PathError> {
+    let (search, problem) = (planner.search(), planner.problem());
+    let motions: Vec<M> = match (&search.unproven, planner.path()) {
+        (Some(path), _) => path.motions().to_vec(),
+        (None, Some(path)) => path.legs().iter().map(|leg| leg.motion().clone()).collect(),
+        (None, None) => return Err(PathError::Missing),
+    };
+    let path = UnprovenPath::try_new(problem.checker(), motions)?;
+    if !is_same(&path.start(), &problem.start()) || !problem.is_goal(&path.goal()) {
+        return Err(PathError::OtherEnds);
+    }
+    Ok(path)
 }

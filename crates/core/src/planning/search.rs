@@ -1,6 +1,7 @@
 //! `Search`, what every planner has: its problem, what it has grown, and what came of it.
 
-use super::{CertifiedPath, Growth, NoPath, Progress};
+use super::path::chart_lines;
+use super::{CertifiedPath, Growth, NoPath, Progress, UnprovenPath};
 use crate::collision::Problem;
 use crate::configuration::Configuration as _;
 use crate::robots::{ChartLine, Motion, Robot};
@@ -17,6 +18,8 @@ pub struct Search<R: Robot, M = ChartLine<R>> {
     pub growth: Growth<R::Configuration, M>,
     /// The best path so far.
     pub path: Option<CertifiedPath<M>>,
+    /// The best path so far of a search whose checker has a black box: nobody has proven it.
+    pub unproven: Option<UnprovenPath<M>>,
     /// Why there will be no path.
     pub end: Option<NoPath>,
     /// The motion between the configurations of two nodes, where they alone determine it.
@@ -27,15 +30,15 @@ impl<R: Robot, M: Motion<Configuration = R::Configuration>> Search<R, M> {
     /// A search whose edges are not determined by their ends. Its planner has a
     /// [`motion`](super::Planner::motion) of its own.
     pub fn of_motions(problem: Problem<R>) -> Self {
-        Search { problem, growth: Growth::new(), path: None, end: None, between: |_, _, _| None }
+        Search { problem, growth: Growth::new(), path: None, unproven: None, end: None, between: |_, _, _| None }
     }
 
     /// What the search has come to.
     pub fn progress(&self) -> Progress {
-        match (&self.path, &self.end) {
-            (Some(_), _) => Progress::Solved,
-            (None, Some(reason)) => Progress::Ended(reason.clone()),
-            (None, None) => Progress::Growing,
+        match &self.end {
+            _ if self.path.is_some() || self.unproven.is_some() => Progress::Solved,
+            Some(reason) => Progress::Ended(reason.clone()),
+            None => Progress::Growing,
         }
     }
 
@@ -44,6 +47,23 @@ impl<R: Robot, M: Motion<Configuration = R::Configuration>> Search<R, M> {
     pub(super) fn between(&self, from: usize, to: usize) -> Option<M> {
         let at = |node: usize| self.growth.nodes().get(node).map(|node| node.at);
         (self.between)(self.problem.checker().robot(), &at(from)?, &at(to)?)
+    }
+
+    /// Takes these motions as the path, if they join and have their certificates; with a black box, if that calls them
+    /// free. Returns whether they do. The path before stays where they do not.
+    pub fn take_motions(&mut self, motions: Vec<M>) -> bool {
+        let checker = self.problem.checker();
+        if checker.black_box().is_some() {
+            let path = UnprovenPath::try_new(checker, motions).ok();
+            let is_called_free = path.is_some();
+            self.unproven = path.or_else(|| self.unproven.take());
+            is_called_free
+        } else {
+            let path = CertifiedPath::try_new(checker, motions).ok();
+            let is_certified = path.is_some();
+            self.path = path.or_else(|| self.path.take());
+            is_certified
+        }
     }
 
     /// The configuration of node number `node`.
@@ -83,12 +103,14 @@ impl<R: Robot> Search<R> {
     }
 
     /// Takes the straight lines through these nodes as the path, if they have their certificates: in rare cases a quick
-    /// proof of an edge has none. Returns whether they have.
+    /// proof of an edge has none. Returns whether they have. With a black box it takes them as a path that is not
+    /// proven, if the black box calls them free.
     pub fn take(&mut self, nodes: &[usize]) -> bool {
-        let path = self.growth.certified(self.problem.checker(), nodes);
-        let is_certified = path.is_some();
-        self.path = path.or_else(|| self.path.take());
-        is_certified
+        let corners: Vec<_> = nodes.iter().map(|node| self.growth.at(*node)).collect();
+        match chart_lines(self.problem.checker(), &corners) {
+            Ok(lines) => self.take_motions(lines),
+            Err(_) => false,
+        }
     }
 
     /// Takes the branch from a root to node number `node` as the path, as [`take`](Self::take).

@@ -14,7 +14,7 @@ use motion_lab_core::robots::AnyRobot;
 pub enum PlanOutcome<'a> {
     /// Nothing yet.
     Growing,
-    /// A path of the planner's.
+    /// A path of the planner's; proven where the task's checker proves.
     Path(PathLengths),
     /// No path: the planner has ended.
     None,
@@ -47,6 +47,11 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
     let mut readout = vec![format!("{} iterations, {} edges asked", effort.iterations, effort.edges)];
     let by = format!("{} at seed {seed}", planner.title());
     let description = match found {
+        PlanOutcome::Path(PathLengths { length, .. }) if !task.checker.proves() => {
+            let caller = task.checker.id();
+            readout.push(format!("length {length:.3} {}, called free by {caller}, not proven", unit(&task.robot)));
+            format!("{by}: a path that {caller} calls free. Nothing of it is proven.")
+        }
         PlanOutcome::Path(PathLengths { length, clearance }) => {
             let clearance = proven(clearance);
             readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));

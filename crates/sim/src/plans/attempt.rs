@@ -2,10 +2,13 @@
 
 use crate::run::Script;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
-use motion_lab_core::collision::ProvenStep;
+use motion_lab_core::collision::{Collision, EdgeVerdict, ProvenStep};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::cspace::CellMap;
-use motion_lab_core::planning::{Bounds, CertifiedPath, Effort, NoPath, Planner, Progress, accepted, solve};
+use motion_lab_core::planning::{
+    Bounds, CertifiedPath, Effort, NoPath, PathError, Planner, Progress, UnprovenPath, accepted, called_free, solve,
+    solve_unproven,
+};
 use motion_lab_core::robots::{ChartLine, HitchArc, Motion, Robot};
 
 use super::drawn::{Drawn, Rejected};
@@ -76,7 +79,7 @@ pub struct FileLeg {
     pub to: Vec<f64>,
     /// What drives it.
     pub driven: Option<LegControl>,
-    /// The steps that prove it free.
+    /// The steps that prove it free; none where nothing is proven.
     pub steps: Vec<ProvenStep>,
 }
 
@@ -85,7 +88,7 @@ pub struct FileLeg {
 pub struct PathLengths {
     /// The length, metres driven or by the chart's coordinates.
     pub length: f64,
-    /// The clearance proven along the whole path, metres.
+    /// The clearance proven along the whole path, metres; 0 where nothing is proven.
     pub clearance: f64,
 }
 
@@ -115,10 +118,14 @@ pub trait PlanAttempt: Send {
     /// The path's length and the clearance proven along it; zeros without a path.
     fn lengths(&self) -> PathLengths;
 
+    /// What the exact scene says of a path that a black box calls free: the clearance that it proves along it, metres,
+    /// or which leg it does not prove free, and where that hits. `None` without a path, and of one that is proven.
+    fn judged(&self) -> Option<Result<f64, PathError>>;
+
     /// What the planner has grown: the nodes' coordinates, and the edges by the numbers of their ends.
     fn growth(&self) -> (Vec<Vec<f64>>, Vec<[usize; 2]>);
 
-    /// The script that plays the path; `None` without a path.
+    /// The script that plays the path; `None` without a path, and for one that is not proven.
     fn play(&self, stage: &PlayStage<'_>) -> Option<Result<PlayedPath, PlayError>>;
 }
 
@@ -126,6 +133,8 @@ pub trait PlanAttempt: Send {
 pub struct Trial<R: Robot, M: LegMotion<Configuration = R::Configuration>> {
     planner: Box<dyn Planner<R, M> + Send>,
     path: Option<CertifiedPath<M>>,
+    /// The path where the checker has a black box.
+    unproven: Option<UnprovenPath<M>>,
     /// The number of motions that were rejected before the last iteration.
     rejected_before: u64,
 }
@@ -133,7 +142,7 @@ pub struct Trial<R: Robot, M: LegMotion<Configuration = R::Configuration>> {
 impl<R: Robot, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
     /// The planner before its first iteration.
     pub fn new(planner: Box<dyn Planner<R, M> + Send>) -> Self {
-        Trial { planner, path: None, rejected_before: 0 }
+        Trial { planner, path: None, unproven: None, rejected_before: 0 }
     }
 }
 
@@ -145,6 +154,33 @@ impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration
 
     fn among_any(motion: &M) -> Vec<AnyConfiguration> {
         Self::sampled(motion).map(Into::into).collect()
+    }
+
+    /// The motions of the path's legs; none without a path.
+    fn motions(&self) -> impl Iterator<Item = &M> {
+        let proven = self.path.iter().flat_map(|path| path.legs()).map(|leg| leg.motion());
+        proven.chain(self.unproven.iter().flat_map(|path| path.motions()))
+    }
+
+    /// Takes the planner's path, if it stands the check of [`solve`] or [`solve_unproven`].
+    fn take(&mut self) -> Result<(), PathError> {
+        let planner = self.planner.as_ref();
+        if planner.problem().checker().black_box().is_some() {
+            self.unproven = Some(called_free(planner)?);
+        } else {
+            self.path = Some(accepted(planner)?);
+        }
+        Ok(())
+    }
+
+    /// The motion of a path that nobody has proven, where the exact scene says that it hits.
+    fn hit(&self) -> Option<Rejected> {
+        let (path, checker) = (self.unproven.as_ref()?, self.planner.problem().checker());
+        let Err(PathError::NotFree { leg, verdict }) = path.certified(checker) else { return None };
+        let (motion, EdgeVerdict::Hit { contact_at, .. }) = (&path.motions()[leg], verdict) else { return None };
+        let at = motion.at(contact_at);
+        let witness = checker.scene().witness(&motion.footprint_at(contact_at));
+        Some(Rejected { way: Self::among_any(motion), at: at.into(), witness })
     }
 
     /// The motion that was rejected last, if it was in the last iteration.
@@ -163,7 +199,12 @@ where
     CertifiedPath<M>: PlayablePath,
 {
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath> {
-        self.path = Some(solve(self.planner.as_mut(), bounds)?);
+        let planner = self.planner.as_mut();
+        if planner.problem().checker().black_box().is_some() {
+            self.unproven = Some(solve_unproven(planner, bounds)?);
+        } else {
+            self.path = Some(solve(planner, bounds)?);
+        }
         Ok(())
     }
 
@@ -171,13 +212,9 @@ where
         let before = self.planner.growth().effort();
         self.rejected_before = before.edges - before.free;
         match self.planner.step() {
-            Progress::Solved => match accepted(self.planner.as_ref()) {
-                Ok(path) => {
-                    self.path = Some(path);
-                    Progress::Solved
-                }
-                Err(refused) => Progress::Ended(refused.into()),
-            },
+            Progress::Solved => {
+                self.take().map_or_else(|refused| Progress::Ended(refused.into()), |()| Progress::Solved)
+            }
             progress => progress,
         }
     }
@@ -185,14 +222,14 @@ where
     fn drawn(&self) -> Drawn {
         let (growth, problem) = (self.planner.growth(), self.planner.problem());
         let edges = growth.edges().filter_map(|[a, b]| Some(Self::among_any(&self.planner.motion(a, b)?)));
-        let path = self.path.iter().flat_map(|path| path.legs());
-        let corners = self.path.iter().flat_map(CertifiedPath::corners);
+        let first = self.motions().next().map(|motion| motion.at(0.0));
+        let corners = first.into_iter().chain(self.motions().map(|motion| motion.at(1.0)));
         Drawn {
             ends: [problem.start(), problem.goal()].map(Into::into),
             edges: edges.collect(),
-            path: path.flat_map(|leg| Self::among_any(leg.motion())).collect(),
+            path: self.motions().flat_map(Self::among_any).collect(),
             corners: corners.map(Into::into).collect(),
-            rejected: self.rejected().filter(|_| self.path.is_none()),
+            rejected: if self.motions().next().is_none() { self.rejected() } else { self.hit() },
             sensed: self.planner.sensed(),
         }
     }
@@ -206,22 +243,27 @@ where
     }
 
     fn legs(&self) -> Vec<FileLeg> {
-        let legs = self.path.iter().flat_map(|path| path.legs());
-        legs.map(|leg| FileLeg {
-            from: leg.motion().at(0.0).coordinates().to_vec(),
-            to: leg.motion().at(1.0).coordinates().to_vec(),
-            driven: leg.motion().driven(),
-            steps: leg.certificate().steps().to_vec(),
+        let proofs = self.path.iter().flat_map(|path| path.legs()).map(|leg| leg.certificate().steps().to_vec());
+        let legs = self.motions().zip(proofs.map(Some).chain(std::iter::repeat(None)));
+        legs.map(|(motion, steps)| FileLeg {
+            from: motion.at(0.0).coordinates().to_vec(),
+            to: motion.at(1.0).coordinates().to_vec(),
+            driven: motion.driven(),
+            steps: steps.unwrap_or_default(),
         })
         .collect()
     }
 
     fn lengths(&self) -> PathLengths {
-        let legs = self.path.iter().flat_map(|path| path.legs());
         PathLengths {
-            length: legs.map(|leg| leg.motion().length()).sum(),
+            length: self.motions().map(|motion| motion.length()).sum(),
             clearance: self.path.as_ref().map_or(0.0, CertifiedPath::clearance),
         }
+    }
+
+    fn judged(&self) -> Option<Result<f64, PathError>> {
+        let proof = self.unproven.as_ref()?.certified(self.planner.problem().checker());
+        Some(proof.map(|path| path.clearance()))
     }
 
     fn growth(&self) -> (Vec<Vec<f64>>, Vec<[usize; 2]>) {

@@ -18,6 +18,7 @@
 
 mod attempt;
 mod bug1_sensor;
+mod checker_name;
 mod drawn;
 mod named;
 mod path_file;
@@ -26,6 +27,7 @@ mod task;
 
 pub use attempt::{FileLeg, LegControl, LegMotion, PathLengths, PlanAttempt, Trial};
 pub use bug1_sensor::{Bug1Sensor, Bug1Walk, WalkEnd};
+pub use checker_name::CheckerName;
 pub use drawn::{Drawn, Rejected};
 pub use named::PlannerName;
 pub use path_file::{Counts, MAX_PATH_BYTES, PathFile, PathFileError};

@@ -66,6 +66,11 @@ pub struct PathFile {
     length: Option<JsonNumber>,
     #[serde(default)]
     clearance: Option<JsonNumber>,
+    /// Who called the path free, and that this is no proof; left out where the path is proven.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    checker: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    proven: Option<bool>,
     #[serde(default)]
     legs: Vec<LegLine>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -226,7 +231,7 @@ impl PathFile {
             let (nodes, edges) = attempt.growth();
             GrowthLines { nodes: nodes.iter().map(|node| numbers(node)).collect(), edges }
         };
-        let lengths = attempt.lengths();
+        let (lengths, proves) = (attempt.lengths(), task.checker.proves());
         PathFile {
             version: VERSION,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
@@ -241,7 +246,9 @@ impl PathFile {
             start: numbers(&task.start.coordinates()),
             goal: numbers(&task.goal.coordinates()),
             length: Some(JsonNumber(lengths.length)),
-            clearance: Some(JsonNumber(lengths.clearance)),
+            clearance: proves.then_some(JsonNumber(lengths.clearance)),
+            checker: (!proves).then(|| task.checker.id().to_owned()),
+            proven: (!proves).then_some(false),
             legs: attempt.legs().iter().map(LegLine::of).collect(),
             growth: with_growth.then(growth),
         }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
-use motion_lab_core::collision::{Checker, Problem, Scene};
+use motion_lab_core::collision::{Problem, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::greater;
@@ -19,6 +19,7 @@ use motion_lab_core::worlds::{Resident, World};
 
 use super::attempt::{PlanAttempt, Trial};
 use super::bug1_sensor::Bug1Sensor;
+use super::checker_name::CheckerName;
 use super::named::PlannerName;
 
 /// How much larger a rover is planned unless somebody says otherwise, metres.
@@ -47,13 +48,25 @@ pub struct Task {
     /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
     /// sensor.
     pub noise: Option<BeamModel>,
+    /// Who answers the planner's questions. Only with [`CheckerName::Exact`] is a path proven, and can be played.
+    pub checker: CheckerName,
 }
 
 impl Task {
     /// The task of a robot in a world, from `start` to `goal`, both of its own configurations.
     pub fn new(name: impl Into<String>, robot: AnyRobot, world: World, ends: [AnyConfiguration; 2]) -> Self {
         let (scene, [start, goal]) = (Arc::new(Scene::of_world(&world)), ends);
-        Task { name: name.into(), robot, world, scene, start, goal, tube: TUBE, noise: None }
+        Task {
+            name: name.into(),
+            robot,
+            world,
+            scene,
+            start,
+            goal,
+            tube: TUBE,
+            noise: None,
+            checker: CheckerName::Exact,
+        }
     }
 
     /// The world with the robot that plays alone in it, and that robot's name: the resident of the task's name, else
@@ -101,7 +114,7 @@ impl Task {
             }
             (AnyRobot::Hitch(car), AnyConfiguration::Hitch(start), AnyConfiguration::Hitch(goal)) => {
                 let car = if start.trailer.is_some() { car.with_trailer() } else { car.without_trailer() };
-                let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), car), start, goal, seed)?;
+                let problem = Problem::try_new(self.checker.checker(&self.scene, car), start, goal, seed)?;
                 Ok(Box::new(Trial::<Hitch, HitchArc>::new(Box::new(HybridAStar::new(problem)))))
             }
             _ => Err(NoPath::Unsuited("start and goal are no configurations of this robot")),
@@ -123,13 +136,13 @@ impl Task {
             AnyConfiguration::Pose(pose) => AnyConfiguration::Pose(Pose2::new(pose.x, pose.y, 0.0)),
             q => q,
         });
-        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), self.planned()), start, goal, seed)?;
+        let problem = Problem::try_new(self.checker.checker(&self.scene, self.planned()), start, goal, seed)?;
         Ok(Box::new(Trial::new(Box::new(CellDecomposition::new(problem)))))
     }
 
     /// The planner whose rover walks by its range sensor.
     fn by_sensor(&self, robot: RustyDisc, [start, goal]: [R2; 2], seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
-        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), robot), start, goal, seed)?;
+        let problem = Problem::try_new(self.checker.checker(&self.scene, robot), start, goal, seed)?;
         let noise = self.noise.map(|model| (model, Stream::new(seed, "bug1/beam")));
         Ok(Box::new(Trial::new(Box::new(Bug1Sensor::new(problem, noise)))))
     }
@@ -146,7 +159,7 @@ impl Task {
         R: Robot<Configuration: Chart + Into<AnyConfiguration>> + Send,
         LinePath<R>: PlayablePath,
     {
-        let problem = Problem::try_new(Checker::new(Arc::clone(&self.scene), robot), start, goal, seed)?;
+        let problem = Problem::try_new(self.checker.checker(&self.scene, robot), start, goal, seed)?;
         let planner: Box<dyn Planner<R, ChartLine<R>> + Send> = match name {
             PlannerName::RrtConnect => Box::new(RrtConnect::new(problem)),
             PlannerName::Rrt => Box::new(Rrt::new(problem)),

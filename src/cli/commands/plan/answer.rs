@@ -7,6 +7,7 @@ use motion_lab::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
 
 use super::advice::next;
+use super::exact::ExactAnswer;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure};
 
@@ -27,6 +28,14 @@ pub struct PlanAnswer {
     length: Option<JsonNumber>,
     #[serde(skip_serializing_if = "Option::is_none")]
     clearance: Option<JsonNumber>,
+    /// Who called the path free, that this is no proof, and what the exact checker says of it; left out where the path
+    /// is proven.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    checker: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proven: Option<bool>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    exact: Option<ExactAnswer>,
     /// The run that plays it, where one was asked for: its ticks, and how far it strays from the path, metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ticks: Option<u64>,
@@ -61,6 +70,9 @@ impl PlanAnswer {
             legs: None,
             length: None,
             clearance: None,
+            checker: (!task.checker.proves()).then(|| task.checker.id()),
+            proven: (!task.checker.proves()).then_some(false),
+            exact: None,
             ticks: None,
             strayed: None,
             contacts: None,
@@ -90,7 +102,8 @@ impl PlanAnswer {
             seconds: Some(seconds),
             legs: Some(attempt.legs().len()),
             length: Some(JsonNumber(length)),
-            clearance: Some(JsonNumber(clearance)),
+            clearance: task.checker.proves().then_some(JsonNumber(clearance)),
+            exact: attempt.judged().map(|judged| ExactAnswer::of(&task.scene, judged)),
             ..Self::new(task, planner, seed)
         }
     }
@@ -112,9 +125,17 @@ impl PlanAnswer {
         let (legs, length) = (self.legs.unwrap_or(0), self.length.map_or(0.0, |length| length.0));
         let clearance = self.clearance.map_or(0.0, |clearance| clearance.0);
         let seconds = self.seconds.unwrap_or(0.0);
-        data.line(format!("{} at seed {}: {} in {}", self.planner, self.seed, self.robot, self.world))?;
+        let by = self.checker.map_or_else(String::new, |checker| format!(", by {checker}"));
+        data.line(format!("{} at seed {}: {} in {}{by}", self.planner, self.seed, self.robot, self.world))?;
         data.line(format!("path       {}, {length:.3} {}", counted(legs, "leg"), self.unit))?;
-        data.line(format!("clearance  {} m, proven along the whole path", proven(clearance)))?;
+        if let Some(checker) = self.checker {
+            data.line(format!("clearance  nothing is proven: {checker} calls the path free"))?;
+        } else {
+            data.line(format!("clearance  {} m, proven along the whole path", proven(clearance)))?;
+        }
+        if let Some(exact) = &self.exact {
+            data.line(format!("exact      {exact}"))?;
+        }
         if let Some(Counts { iterations, samples, edges, free }) = self.effort {
             let count = |n: u64, what: &str| counted(usize::try_from(n).unwrap_or(usize::MAX), what);
             let (rounds, draws) = (count(iterations, "iteration"), count(samples, "sample"));

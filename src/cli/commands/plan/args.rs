@@ -2,10 +2,10 @@
 
 use super::task;
 use crate::cli::commands::record::SeedRange;
-use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames};
+use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, checker};
 use crate::cli::support::paper::PaperArgs;
 use clap::Args;
-use motion_lab::plans::PlannerName;
+use motion_lab::plans::{CheckerName, PlannerName};
 use std::path::PathBuf;
 
 /// Plan a path that is proven free along its whole length, or say why there is none.
@@ -17,6 +17,9 @@ use std::path::PathBuf;
 /// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
 /// the run in which the script plays it, with --svg to a picture, with --gif to a film of the planner's growth. What
 /// can't be played is refused when the script is made.
+///
+/// With --checker parry the planner asks the book's black box instead. Nothing of its path is proven: it may lead
+/// through a wall, and can't be played.
 ///
 /// With --compare several planners work on the same problem at several seeds; --csv has a row for each attempt.
 #[derive(Debug, Args)]
@@ -53,6 +56,10 @@ pub struct PlanArgs {
     /// A rover is planned this much larger, metres, so that its script may stray from the path by as much: 0 to 1.
     #[arg(long, value_name = "METRES", default_value_t = 0.02)]
     pub(super) tube: f64,
+    /// Who answers the planner's questions. With parry, the book's black box, nothing is proven: what is printed and
+    /// written says so, and adds what the exact checker finds along the path.
+    #[arg(long, value_name = "CHECKER", value_parser = checker(), default_value = "exact", conflicts_with = "compare")]
+    pub(super) checker: CheckerName,
     /// Write the path to this file, as JSON.
     #[arg(short, long, value_name = "FILE", conflicts_with = "compare")]
     pub(super) output: Option<PathBuf>,

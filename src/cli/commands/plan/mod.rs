@@ -6,6 +6,7 @@ mod answer;
 mod args;
 mod compare;
 mod drawing;
+mod exact;
 mod film;
 mod play;
 mod task;
@@ -33,6 +34,11 @@ impl PlanArgs {
         }
         let from = self.from.as_ref().map(|NumberList(from)| from.as_slice());
         let task = task::find(&self.robot, self.world.as_deref(), from, &self.to.0, self.tube)?;
+        let task = Task { checker: self.checker, ..task };
+        if !task.checker.proves() && (self.script.is_some() || self.record.is_some()) {
+            let reason = format!("a script plays a path that is proven, and {} proves nothing", task.checker.id());
+            return Err(Failure::usage(reason, "Leave out --checker, or --script and --record."));
+        }
         if !self.compare.is_empty() {
             return compare::compare(&self, &task, data);
         }

@@ -1,9 +1,10 @@
 //! Answers as JSON.
 
-use motion_lab::collision::{Checker, Collision, EdgeVerdict, HitBy, ObstacleId, Scene, Witness};
+use motion_lab::collision::{Checker, EdgeVerdict, HitBy, ObstacleId, ParryScene, Scene, Witness};
 use motion_lab::configuration::AnyConfiguration;
 use motion_lab::export::JsonNumber;
-use motion_lab::geometry::{Point2, Pose2};
+use motion_lab::geometry::{Point2, Pose2, Vector2};
+use motion_lab::plans::CheckerName;
 use motion_lab::robots::{AnyRobot, Robot};
 use motion_lab::sensors::RangeSensor;
 use serde::Serialize;
@@ -34,7 +35,7 @@ pub struct WitnessAnswer {
 }
 
 /// A verdict on an edge.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Serialize)]
 #[serde(tag = "edge", rename_all = "lowercase")]
 pub enum EdgeAnswer {
     Free {
@@ -57,6 +58,24 @@ pub enum EdgeAnswer {
     },
 }
 
+/// An answer as it is printed. That of a black box says that it is not proven.
+#[derive(Debug, Serialize)]
+pub struct QueryAnswer {
+    #[serde(flatten)]
+    answer: Answer,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    checker: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    proven: Option<bool>,
+}
+
+impl QueryAnswer {
+    /// The answer of this checker.
+    pub fn new(answer: Answer, by: CheckerName) -> Self {
+        QueryAnswer { answer, checker: (!by.proves()).then(|| by.id()), proven: (!by.proves()).then_some(false) }
+    }
+}
+
 /// The answer about a robot at `q`, moving to `to` where the question is about a motion.
 pub fn ask(
     checker: &Checker<AnyRobot>,
@@ -65,6 +84,7 @@ pub fn ask(
     to: Option<&AnyConfiguration>,
 ) -> Result<Answer, String> {
     let (scene, robot) = (checker.scene(), checker.robot());
+    let asked = checker.black_box().unwrap_or(scene);
     // a configuration that is not this robot's would count as contact; here it is an error
     for q in [Some(q), to].into_iter().flatten() {
         robot.check(q).map_err(|error| error.to_string())?;
@@ -72,24 +92,37 @@ pub fn ask(
     let at = || robot.footprint(q);
     let to = || to.ok_or("`to`, where the motion ends, is missing");
     Ok(match question {
-        Question::Intersects => Answer::Intersects { intersects: scene.intersects(&at()) },
-        Question::Distance => Answer::Distance { distance: JsonNumber(scene.distance(&at())) },
-        Question::Witness => Answer::Witness { witness: scene.witness(&at()).map(|w| witness(scene, &w)) },
-        Question::Swept => Answer::Swept { swept: scene.swept(&at(), &robot.footprint(to()?)) },
+        Question::Intersects => Answer::Intersects { intersects: asked.intersects(&at()) },
+        Question::Distance => Answer::Distance { distance: JsonNumber(asked.distance(&at())) },
+        Question::Witness => Answer::Witness { witness: asked.witness(&at()).map(|w| witness(scene, &w)) },
+        Question::Swept => Answer::Swept { swept: asked.swept(&at(), &robot.footprint(to()?)) },
         Question::Edge => Answer::Edge(edge(scene, checker.edge(q, to()?).map_err(|error| error.to_string())?)),
         Question::Scan => return Err("a scan is not asked of a robot".into()),
     })
 }
 
-/// The ranges of the sensor at x, y and, if given, with the heading theta.
-pub fn ask_scan(scene: &Scene, sensor: &RangeSensor, q: &[f64]) -> Result<Answer, String> {
+/// The ranges of the sensor at x, y and, if given, with the heading theta; by parry's rays if there is a black box.
+pub fn ask_scan(
+    scene: &Scene,
+    black_box: Option<&ParryScene>,
+    sensor: &RangeSensor,
+    q: &[f64],
+) -> Result<Answer, String> {
     let pose = match *q {
         [x, y] => Pose2::new(x, y, 0.0),
         [x, y, theta] => Pose2::new(x, y, theta),
         _ => return Err(format!("{} numbers: a scan is from x, y or x, y, theta", q.len())),
     };
     check_place(q)?;
-    Ok(Answer::Scan { ranges: sensor.scan_from(scene, &[], &pose).into_iter().map(JsonNumber).collect() })
+    let ranges = match black_box {
+        None => sensor.scan_from(scene, &[], &pose),
+        Some(parry) => {
+            let range =
+                |(x, y): (f64, f64)| parry.range(pose.position(), pose.rotate(Vector2::new(x, y)), sensor.max_range);
+            (0..sensor.n_rays).map(|k| range(sensor.direction(k))).collect()
+        }
+    };
+    Ok(Answer::Scan { ranges: ranges.into_iter().map(JsonNumber).collect() })
 }
 
 fn witness(scene: &Scene, w: &Witness) -> WitnessAnswer {

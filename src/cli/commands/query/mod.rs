@@ -15,17 +15,19 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use motion_lab::collision::Scene;
+use motion_lab::collision::{ParryScene, Scene};
+use motion_lab::plans::CheckerName;
 use motion_lab::sensors::RangeSensor;
 use serde::Serialize;
 
-use answer::{Answer, ask, ask_scan};
+pub use answer::{EdgeAnswer, edge};
+use answer::{QueryAnswer, ask, ask_scan};
 use certificate::EdgeCertificate;
 pub use chosen::Chosen;
 use line::{QuerySubject, parse_line};
 use lines::Lines;
 
-use crate::cli::support::choices::{KINDS, NumberList, RobotsAndKinds, WorldNames};
+use crate::cli::support::choices::{self, KINDS, NumberList, RobotsAndKinds, WorldNames};
 use crate::cli::support::input::{is_dash, open, shown};
 use crate::cli::support::progress::{self, CommandProgress};
 use crate::cli::support::world_source::find_world;
@@ -50,6 +52,8 @@ const MESSAGES: u64 = 10;
 /// With --input each line is either a configuration, [x, y, theta], or {"q": [..], "to": [..]}; blank lines are passed
 /// over. Each gets its answer in the same order. A wrong one gets {"error": ".."}, the others their answers, and the
 /// exit code is 3.
+///
+/// With --checker parry the book's black box answers, and every answer ends with "checker":"parry","proven":false.
 ///
 /// With --certificate the proof of `edge` goes to a file, as JSON: the world's shapes, the robot, the motion, and the
 /// steps [from, to, clearance] in which it is free, for other programs to check. Of a motion that hits it proves what
@@ -83,6 +87,10 @@ pub struct Query {
     /// A built-in world or the path of a world file; the robot's home when left out.
     #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     world: Option<String>,
+    /// Who answers. With parry, the book's black box, each answer says that it is not proven; it has no verdict on an
+    /// edge and no certificate.
+    #[arg(long, value_name = "CHECKER", value_parser = choices::checker(), default_value = "exact")]
+    checker: CheckerName,
     /// Read the configurations from this file, `-` for standard input.
     #[arg(long, value_name = "FILE")]
     input: Option<PathBuf>,
@@ -136,6 +144,10 @@ impl Query {
                 "Ask `query edge`, or leave --certificate out.",
             ));
         }
+        if self.question == Question::Edge && !self.checker.proves() {
+            let reason = format!("the verdict on an edge is a proof, and {} proves nothing", self.checker.id());
+            return Err(Failure::usage(reason, "Ask `query swept`, or leave --checker out."));
+        }
         let sensor = RangeSensor::try_new(self.rays, self.range)
             .map_err(|error| Failure::usage(error, "Change --rays or --range."))?;
         let world = self.world.as_deref();
@@ -144,7 +156,9 @@ impl Query {
             None => (None, find_world(world.unwrap_or("apartment"))?),
         };
         let scene = Arc::new(Scene::of_world(&world));
-        Ok(QuerySetup { question: self.question, world: world.name, scene, robot, sensor })
+        let black_box = (!self.checker.proves()).then(|| Arc::new(ParryScene::of_scene(&scene)));
+        let (question, checker) = (self.question, self.checker);
+        Ok(QuerySetup { question, world: world.name, scene, checker, black_box, robot, sensor })
     }
 }
 
@@ -154,6 +168,9 @@ struct QuerySetup {
     /// The world's name.
     world: String,
     scene: Arc<Scene>,
+    checker: CheckerName,
+    /// Who answers instead of the scene.
+    black_box: Option<Arc<ParryScene>>,
     robot: Option<Chosen>,
     sensor: RangeSensor,
 }
@@ -164,16 +181,21 @@ struct WrongLine {
 }
 
 impl QuerySetup {
-    fn answer(&self, asked: &QuerySubject) -> Result<Answer, String> {
+    fn answer(&self, asked: &QuerySubject) -> Result<QueryAnswer, String> {
         self.check(asked)?;
-        match (self.question, &self.robot) {
-            (Question::Scan, _) => ask_scan(&self.scene, &self.sensor, &asked.q),
+        let answer = match (self.question, &self.robot) {
+            (Question::Scan, _) => ask_scan(&self.scene, self.black_box.as_deref(), &self.sensor, &asked.q),
             (question, Some(robot)) => {
                 let (checker, q, to) = robot.checker(&self.scene, asked)?;
+                let checker = match &self.black_box {
+                    Some(black_box) => checker.with_black_box(Arc::clone(black_box)),
+                    None => checker,
+                };
                 ask(&checker, question, &q, to.as_ref())
             }
             (_, None) => Err("no robot is named".into()),
-        }
+        }?;
+        Ok(QueryAnswer::new(answer, self.checker))
     }
 
     fn certify(&self, asked: &QuerySubject) -> Result<EdgeCertificate, String> {

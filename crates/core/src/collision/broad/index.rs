@@ -1,6 +1,6 @@
 //! `Index`, the boxes of a scene's pieces in the structure that suits their number and spread.
 
-use super::bvh::BoxTree;
+use super::super::parry::box_tree::BoxTree;
 use super::grid::PieceGrid;
 use super::linear::{Boxes, FEW};
 use crate::geometry::Aabb;

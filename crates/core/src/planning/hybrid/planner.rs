@@ -11,7 +11,7 @@ use super::{CarMove, HybridSettings};
 use crate::collision::Problem;
 use crate::configuration::HitchCfg;
 use crate::num::{lesser, wrap};
-use crate::planning::{CertifiedPath, NoPath, Planner, Search};
+use crate::planning::{NoPath, Planner, Progress, Search};
 use crate::robots::{CHANNEL_UNITS, Hitch, HitchArc, Motion};
 
 /// Hybrid A* (Dolgov, Thrun, Montemerlo and Diebel, 2008) for the car, with a trailer or without: A* over what the car
@@ -92,7 +92,7 @@ impl HybridAStar {
     /// The moves of the path, as the simulator can drive them; none while there is no path.
     pub fn moves(&self) -> Vec<CarMove> {
         let last = self.search.growth.nodes().len() - 1;
-        if self.search.path.is_none() {
+        if self.search.progress() != Progress::Solved {
             return Vec::new();
         }
         self.search.growth.branch(last).into_iter().filter_map(|node| self.reached[node].by).collect()
@@ -192,16 +192,15 @@ impl HybridAStar {
         None
     }
 
-    /// The path to a node, with its certificates.
-    fn path_to(&self, node: usize) -> Option<CertifiedPath<HitchArc>> {
+    /// The motions that lead to a node.
+    fn motions_to(&self, node: usize) -> Option<Vec<HitchArc>> {
         let branch = self.search.growth.branch(node);
         let motions: Vec<HitchArc> =
             branch.windows(2).map(|ends| self.motion(ends[0], ends[1])).collect::<Option<_>>()?;
         // where the start is near enough to the goal, the car stays
         let stays = CarMove { speed: 0, steering: 0, ticks: 1 };
-        let motions =
-            if motions.is_empty() { vec![stays.drive(self.car(), &self.search.at(node)).ok()?] } else { motions };
-        CertifiedPath::try_new(self.search.problem.checker(), motions).ok()
+        let stay = || Some(vec![stays.drive(self.car(), &self.search.at(node)).ok()?]);
+        if motions.is_empty() { stay() } else { Some(motions) }
     }
 
     /// The next open node whose cell is not closed.
@@ -235,8 +234,8 @@ impl Planner<Hitch, HitchArc> for HybridAStar {
         };
         let is_goal = self.search.problem.is_goal(&self.search.at(node));
         let last = if is_goal { Some(node) } else { self.shoot(node) };
-        self.search.path = last.and_then(|last| self.path_to(last));
-        if self.search.path.is_none() {
+        let motions = last.and_then(|last| self.motions_to(last));
+        if !motions.is_some_and(|motions| self.search.take_motions(motions)) {
             self.expand(node);
         }
     }

@@ -3,7 +3,7 @@
 use super::walk::{Bug1Walk, WalkEnd};
 use motion_lab_core::collision::Problem;
 use motion_lab_core::configuration::{Configuration, R2};
-use motion_lab_core::planning::{LinePath, NoPath, Planner, Search, Sensed};
+use motion_lab_core::planning::{NoPath, Planner, Search, Sensed};
 use motion_lab_core::random::Stream;
 use motion_lab_core::robots::RustyDisc;
 use motion_lab_core::sensors::BeamModel;
@@ -60,9 +60,9 @@ impl Bug1Sensor {
     }
 
     fn arrived(&mut self) -> Option<NoPath> {
-        let corners: Vec<R2> = self.search.growth.nodes().iter().map(|node| node.at).collect();
-        let path = LinePath::through(self.search.problem.checker(), &corners);
-        path.map(|path| self.search.path = Some(path)).err().map(NoPath::from)
+        let nodes: Vec<usize> = (0..self.search.growth.nodes().len()).collect();
+        let is_path = self.search.take(&nodes);
+        (!is_path).then_some(NoPath::GaveUp("the way that it walked is not proven free"))
     }
 }
 

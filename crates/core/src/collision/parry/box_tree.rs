@@ -1,4 +1,4 @@
-//! `BoxTree`, the bounding-volume tree over many pieces. The only file that imports parry.
+//! `BoxTree`, the bounding-volume tree over many pieces.
 
 use std::cell::Cell;
 
