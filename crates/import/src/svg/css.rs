@@ -2,7 +2,8 @@
 
 use crate::ImportProblem;
 
-const PROPERTIES: [&str; 12] = [
+/// The properties that matter.
+pub(crate) const PROPERTIES: [&str; 20] = [
     "fill",
     "stroke",
     "fill-opacity",
@@ -14,7 +15,15 @@ const PROPERTIES: [&str; 12] = [
     "color",
     "transform",
     "transform-origin",
+    "transform-box",
     "font-size",
+    "fill-rule",
+    "clip-rule",
+    "clip-path",
+    "mask",
+    "overflow",
+    "stop-color",
+    "stop-opacity",
 ];
 
 /// Largest number of parts of a selector. The time to match one that names ancestors grows steeply with their number.
@@ -27,54 +36,47 @@ pub(crate) struct StyleSheet {
     pub selectors: usize,
 }
 
-/// Returns the value of a property that matters; `None` for any other. Paint that refers to another element becomes
-/// black.
-///
-/// # Errors
-/// [`ImportProblem::Unsupported`] for a clip path or a mask.
-pub(crate) fn supported_value<'a>(name: &str, value: &'a str) -> Result<Option<&'a str>, ImportProblem> {
-    let value = value.trim();
-    match name {
-        "clip-path" | "mask" if value != "none" => {
-            let what = if name == "mask" { "a mask" } else { "a clip path" };
-            Err(ImportProblem::Unsupported(format!("{what}: cut the shapes themselves")))
-        }
-        "fill" | "stroke" if value.contains("url(") => Ok(Some("black")),
-        name if PROPERTIES.contains(&name) => Ok(Some(value)),
-        _ => Ok(None),
+/// A declaration of a property that matters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct StyleDeclaration {
+    pub property: &'static str,
+    pub value: String,
+    pub important: bool,
+}
+
+impl StyleDeclaration {
+    /// The declaration; `None` if the property does not matter.
+    pub fn new(property: &str, value: &str) -> Option<Self> {
+        let property = *PROPERTIES.iter().find(|known| **known == property.trim())?;
+        let value = value.trim();
+        let (value, important) = match value.strip_suffix("important").map(str::trim_end) {
+            Some(before) if before.ends_with('!') => (before[..before.len() - 1].trim_end(), true),
+            _ => (value, false),
+        };
+        Some(StyleDeclaration { property, value: value.to_owned(), important })
     }
 }
 
 /// Returns the declarations of a `style` attribute that matter, each property once. The last one counts, unless only an
 /// earlier one is `!important`.
-///
-/// # Errors
-/// As [`supported_value`].
-pub(crate) fn declarations(style: &str) -> Result<String, ImportProblem> {
-    let mut last: [Option<&str>; PROPERTIES.len()] = [None; PROPERTIES.len()];
-    for declaration in style.split(';') {
-        let Some((name, value)) = declaration.split_once(':') else { continue };
-        let name = name.trim();
-        if let Some(value) = supported_value(name, value)?
-            && let Some(i) = PROPERTIES.iter().position(|p| *p == name)
-        {
-            let is_outranked = last[i].is_some_and(|last| is_important(last) && !is_important(value));
-            last[i] = if is_outranked { last[i] } else { Some(value) };
+pub(crate) fn declarations(style: &str) -> Vec<StyleDeclaration> {
+    let mut last: Vec<StyleDeclaration> = Vec::new();
+    let pairs = style.split(';').filter_map(|declaration| declaration.split_once(':'));
+    for new in pairs.filter_map(|(name, value)| StyleDeclaration::new(name, value)) {
+        match last.iter_mut().find(|old| old.property == new.property) {
+            Some(old) if old.important && !new.important => {}
+            Some(old) => *old = new,
+            None => last.push(new),
         }
     }
-    let all = PROPERTIES.iter().zip(last).filter_map(|(name, value)| Some([name, ":", value?, ";"].concat()));
-    Ok(all.collect())
-}
-
-fn is_important(value: &str) -> bool {
-    value.trim_end().ends_with("!important")
+    last
 }
 
 /// Returns the rules of a style sheet, each with the declarations that matter. Comments and rules that begin with `@`
 /// are left out.
 ///
 /// # Errors
-/// As [`supported_value`]; a selector of too many parts.
+/// [`ImportProblem::Unsupported`] for a selector of too many parts.
 pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
     let plain = without_comments(text);
     let mut sheet = StyleSheet { text: String::new(), selectors: 0 };
@@ -92,10 +94,13 @@ pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
         if selector.starts_with('@') {
             continue;
         }
-        let kept = declarations(block)?;
-        if kept.is_empty() {
+        let declared = declarations(block);
+        if declared.is_empty() {
             continue;
         }
+        let mark = |important: bool| if important { " !important;" } else { ";" };
+        let text = |d: &StyleDeclaration| [d.property, ":", &d.value, mark(d.important)].concat();
+        let kept: String = declared.iter().map(text).collect();
         for one in selector.split(',') {
             let parts = one.split([' ', '\t', '\n', '\r', '>', '+', '~']).filter(|part| !part.is_empty()).count();
             if parts > MAX_PARTS {
@@ -139,25 +144,24 @@ fn block_end(text: &str) -> usize {
 mod tests {
     use super::*;
 
-    #[test]
-    fn what_decides_nothing_is_left_out() {
-        let style = "fill:red; filter:url(#f);fill : url(#g) none;marker-mid:url(#m); display:none;x";
-        assert_eq!(declarations(style).unwrap(), "fill:black;display:none;");
-        let sheet = "/* a{} */@import 'b';@media print { .c { fill: red } } .d, g > .e{stroke:none;filter:url(#f)} .f{";
-        let sheet = style_sheet(sheet).unwrap();
-        assert_eq!((sheet.text.as_str(), sheet.selectors), (".d, g > .e{stroke:none;}", 2));
-        assert_eq!(declarations("fill:none !important;fill:red").unwrap(), "fill:none !important;");
-        assert_eq!(declarations("fill:none;fill:red !important").unwrap(), "fill:red !important;");
+    fn texts(style: &str) -> Vec<String> {
+        let mark = |important: bool| if important { "!" } else { "" };
+        declarations(style).iter().map(|d| format!("{}:{}{}", d.property, d.value, mark(d.important))).collect()
     }
 
     #[test]
-    fn cuts_and_long_selectors_are_refused() {
-        assert!(declarations("clip-path:none;mask:none").unwrap().is_empty());
-        for (style, what) in [("clip-path: url(#c)", "a clip path"), ("mask:url(#m)", "a mask")] {
-            let problem = declarations(style).unwrap_err().to_string();
-            assert_eq!(problem, format!("not supported: {what}: cut the shapes themselves"));
-            assert!(style_sheet(&format!(".a{{{style}}}")).is_err());
-        }
+    fn what_decides_nothing_is_left_out() {
+        let style = "fill:red; filter:url(#f);fill : url(#g) none;marker-mid:url(#m); display:none;x";
+        assert_eq!(texts(style), ["fill:url(#g) none", "display:none"]);
+        let sheet = "/* a{} */@import 'b';@media print { .c { fill: red } } .d, g > .e{stroke:none;filter:url(#f)} .f{";
+        let sheet = style_sheet(sheet).unwrap();
+        assert_eq!((sheet.text.as_str(), sheet.selectors), (".d, g > .e{stroke:none;}", 2));
+        assert_eq!(texts("fill:none !important;fill:red"), ["fill:none!"]);
+        assert_eq!(texts("fill:none;fill:red ! important"), ["fill:red!"]);
+    }
+
+    #[test]
+    fn long_selectors_are_refused() {
         assert_eq!(style_sheet("g > .a b{fill:red}").unwrap().selectors, 1);
         assert!(style_sheet("g > .a b *{fill:red}").is_err());
         assert_eq!(style_sheet("g > .a b text{font-weight:bold}").unwrap().selectors, 0);

@@ -1,0 +1,261 @@
+//! `SvgObstacles`, which makes obstacles of drawn shapes.
+
+use super::check::Labels;
+use super::clips::{ClipLayers, ClipTable, Extent2, is_in};
+use super::walk::DrawnShape;
+use crate::draft::WorldDraft;
+use crate::planar::{Arrangement, CurvedPart, PathOutline, Ring, disc, outline};
+use motion_lab_core::geometry::{MIN_FEATURE, Point2, orientation};
+use motion_lab_core::num::hypot;
+use motion_lab_core::worlds::{MAX_ITEMS, ShapeText, WorldProblem, Xy};
+
+/// Pairs of edges that may be compared for all shapes of a drawing that are cut or cross themselves.
+pub(crate) const MAX_COMPARISONS: usize = 20_000_000;
+
+/// Makes obstacles of drawn shapes, one after the other.
+pub(crate) struct SvgObstacles<'a> {
+    pub draft: &'a mut WorldDraft,
+    pub clips: &'a ClipTable,
+    pub labels: &'a Labels,
+    pub tolerance: f64,
+    /// Width and height of the sheet, metres.
+    pub sheet: Xy,
+    /// Pairs of edges that may still be compared.
+    pub comparisons: usize,
+}
+
+/// Rounds a length in metres to micrometres.
+pub(crate) fn micro(x: f64) -> f64 {
+    (x * 1e6).round() / 1e6 + 0.0
+}
+
+fn xy(p: &Point2) -> Xy {
+    (p.x, p.y)
+}
+
+impl<'a> SvgObstacles<'a> {
+    /// Adds the obstacle of a shape, or several: a solid for what is filled, walls for what is only stroked.
+    pub fn add(&mut self, shape: &DrawnShape<'_>) -> Result<(), WorldProblem> {
+        let mut room = 10 * MAX_ITEMS;
+        let follow = |part: &CurvedPart| outline(part, self.tolerance, &mut room);
+        let outlines: Option<Vec<PathOutline>> = shape.parts.iter().map(follow).collect();
+        let outlines = outlines.ok_or(WorldProblem::TooMany { what: "straight pieces of its curves" })?;
+        let points: Vec<Point2> = outlines.iter().flat_map(|outline| &outline.points).copied().collect();
+        let work = shape.clips.iter().map(|clip| self.clips.size(*clip)).sum::<usize>() * (1 + points.len());
+        let Some(left) = self.comparisons.checked_sub(work) else {
+            let label = self.labels.of(shape.element);
+            self.draft.note(format!("{label} is left out: its clip path has too many points"));
+            return Ok(());
+        };
+        self.comparisons = left;
+        let cutting: Vec<usize> =
+            shape.clips.iter().copied().filter(|&clip| !self.clips.holds(clip, &points)).collect();
+        if shape.filled { self.solid(shape, &outlines, &cutting) } else { self.walls(shape, &outlines, &cutting) }
+    }
+
+    /// The name of a shape's obstacle.
+    fn name(&mut self, id: &str, stem: &str) -> String {
+        if id.is_empty() { self.draft.world.numbered(stem) } else { self.draft.world.claim(id) }
+    }
+
+    fn walls(
+        &mut self,
+        shape: &DrawnShape<'_>,
+        outlines: &[PathOutline],
+        cutting: &[usize],
+    ) -> Result<(), WorldProblem> {
+        for outline in outlines {
+            if cutting.is_empty() {
+                self.wall(shape, outline)?;
+                continue;
+            }
+            let mut line = outline.points.clone();
+            line.extend(line.first().copied().filter(|_| outline.closed));
+            let cut = |lines: Vec<Vec<Point2>>, clip: &usize| {
+                lines.iter().flat_map(|line| self.clips.cut_line(*clip, line)).collect()
+            };
+            let pieces: Vec<Vec<Point2>> = cutting.iter().fold(vec![line], cut);
+            for points in pieces {
+                self.wall(shape, &PathOutline { points, closed: false })?;
+            }
+        }
+        Ok(())
+    }
+
+    fn wall(&mut self, shape: &DrawnShape<'_>, outline: &PathOutline) -> Result<(), WorldProblem> {
+        let (points, closed) = spaced(outline);
+        if points.len() < 2 {
+            self.draft.note("what is smaller than a millimetre is left out");
+            return Ok(());
+        }
+        let name = self.name(&shape.id, "wall");
+        self.draft.world.wall(name, points.iter().map(xy).collect(), closed)
+    }
+
+    /// Adds what is filled, closed even if the drawing left it open. What has no room inside is a wall.
+    fn solid(
+        &mut self,
+        shape: &DrawnShape<'_>,
+        outlines: &[PathOutline],
+        cutting: &[usize],
+    ) -> Result<(), WorldProblem> {
+        let (mut rings, mut thin): (Vec<PlacedRing>, Vec<PathOutline>) = (Vec::new(), Vec::new());
+        for (part, outline) in shape.parts.iter().zip(outlines) {
+            let outline = PathOutline { closed: true, ..outline.clone() };
+            let (points, _) = spaced(&outline);
+            if let (Some(extent), true) = (Extent2::of(&points), points.len() > 2) {
+                rings.push(PlacedRing { points, extent, disc: disc(part, self.tolerance) });
+            } else if shape.stroked || has_area(&outline.points) {
+                thin.push(outline);
+            } else {
+                self.draft.note("what is filled and has no area is left out");
+            }
+        }
+        let mut members = Vec::new();
+        let is_even_odd = shape.even_odd;
+        for group in if cutting.is_empty() { groups(rings) } else { vec![rings] } {
+            match self.members(&group, is_even_odd, cutting) {
+                Ok(found) => members.extend(found),
+                Err(why) => {
+                    self.draft.note(match why {
+                        Unfilled::Thin => "what is filled and thinner than a millimetre is drawn as its outline".into(),
+                        Unfilled::Crossing => format!(
+                            "{} is drawn as its outline: its lines cross too often",
+                            self.labels.of(shape.element)
+                        ),
+                    });
+                    thin.extend(group.into_iter().map(|ring| PathOutline { points: ring.points, closed: true }));
+                }
+            }
+        }
+        if self.is_paper(&members) {
+            self.draft.note("a filled shape that covers the whole sheet is taken for its paper and left out");
+            return if shape.stroked { self.walls(shape, outlines, cutting) } else { Ok(()) };
+        }
+        self.add_members(shape, members)?;
+        self.walls(shape, &thin, cutting)
+    }
+
+    fn add_members(&mut self, shape: &DrawnShape<'_>, mut members: Vec<ShapeText>) -> Result<(), WorldProblem> {
+        let stem = match &members[..] {
+            [] => return Ok(()),
+            [ShapeText::Box { .. }] => "box",
+            [ShapeText::Disc { .. }] => "disc",
+            _ => "polygon",
+        };
+        let text = if members.len() == 1 { members.remove(0) } else { ShapeText::Union(members) };
+        let name = self.name(&shape.id, stem);
+        self.draft.world.solid(name, text)
+    }
+
+    /// Whether a solid is a rectangle that covers the whole sheet.
+    fn is_paper(&self, members: &[ShapeText]) -> bool {
+        let (width, height) = self.sheet;
+        matches!(members, [ShapeText::Box { min, max }]
+            if min.0 <= 0.0 && min.1 <= 0.0 && max.0 >= width && max.1 >= height)
+    }
+
+    /// The shapes that cover what rings enclose by the fill rule, within what cuts it.
+    fn members(&mut self, rings: &[PlacedRing], even_odd: bool, cutting: &[usize]) -> Result<Vec<ShapeText>, Unfilled> {
+        if let ([ring], []) = (rings, cutting)
+            && let Some(shape) = ring.alone()
+        {
+            return Ok(vec![shape]);
+        }
+        let mut lines: Vec<Ring> = rings.iter().map(|ring| Ring { layer: 0, points: ring.points.clone() }).collect();
+        let mut layers = ClipLayers::above_first();
+        for clip in cutting {
+            self.clips.layer(*clip, &mut layers, &mut lines).ok_or(Unfilled::Crossing)?;
+        }
+        let arrangement = Arrangement::try_new(&lines, &mut self.comparisons).map_err(|_| Unfilled::Crossing)?;
+        let faces = arrangement.inside(|windings| {
+            let winding = windings.first().copied().unwrap_or(0);
+            is_in(winding, even_odd) && cutting.iter().all(|clip| self.clips.is_inside(*clip, &layers, windings))
+        });
+        if faces.is_empty() && cutting.is_empty() && !rings.is_empty() {
+            return Err(Unfilled::Thin);
+        }
+        Ok(faces.into_iter().map(|face| box_of(&face).unwrap_or_else(|| polygon(&face))).collect())
+    }
+}
+
+/// Why a filled shape is no solid.
+enum Unfilled {
+    Thin,
+    Crossing,
+}
+
+/// A filled part of a shape.
+struct PlacedRing {
+    points: Vec<Point2>,
+    extent: Extent2,
+    disc: Option<(Point2, f64)>,
+}
+
+impl PlacedRing {
+    /// What the ring is if nothing cuts it: a disc, a box or a simple polygon; `None` if it is none of these.
+    fn alone(&self) -> Option<ShapeText> {
+        if let Some((center, radius)) = self.disc.filter(|(_, radius)| micro(*radius) >= MIN_FEATURE) {
+            return Some(ShapeText::Disc { center: (micro(center.x), micro(center.y)), radius: micro(radius) });
+        }
+        let is_polygon = || motion_lab_core::worlds::convex_pieces(&self.points).is_ok();
+        box_of(&self.points).or_else(|| is_polygon().then(|| polygon(&self.points)))
+    }
+}
+
+fn polygon(points: &[Point2]) -> ShapeText {
+    ShapeText::Polygon(points.iter().map(xy).collect())
+}
+
+/// The box with these corners, if vertical and horizontal sides alternate.
+fn box_of(points: &[Point2]) -> Option<ShapeText> {
+    let upright = |i: usize| points[i].x == points[(i + 1) % 4].x;
+    let level = |i: usize| points[i].y == points[(i + 1) % 4].y;
+    let is_box = points.len() == 4 && (0..4).all(|i| upright(i) != level(i) && upright(i) != upright((i + 1) % 4));
+    let Extent2 { min, max } = Extent2::of(points).filter(|_| is_box)?;
+    Some(ShapeText::Box { min: xy(&min), max: xy(&max) })
+}
+
+/// Sorts rings into groups whose boxes are apart.
+fn groups(rings: Vec<PlacedRing>) -> Vec<Vec<PlacedRing>> {
+    let mut groups: Vec<(Extent2, Vec<PlacedRing>)> = Vec::new();
+    for ring in rings {
+        let mut joined = (ring.extent, vec![ring]);
+        // what the growing box meets joins, until nothing more does
+        while let Some(i) = groups.iter().position(|(extent, _)| extent.meets(&joined.0)) {
+            let (extent, mut members) = groups.remove(i);
+            let corners = [extent.min, extent.max, joined.0.min, joined.0.max];
+            joined.0 = Extent2::of(&corners).unwrap_or(extent);
+            members.append(&mut joined.1);
+            joined.1 = members;
+        }
+        groups.push(joined);
+    }
+    groups.into_iter().map(|(_, members)| members).collect()
+}
+
+/// Whether a line encloses anything: it is not all on one straight line.
+fn has_area(points: &[Point2]) -> bool {
+    let Some((&first, rest)) = points.split_first() else { return false };
+    let far = rest.iter().copied().find(|p| *p != first);
+    far.is_some_and(|far| rest.iter().any(|p| orientation(first, far, *p) != 0.0))
+}
+
+/// Rounds the points of an outline and drops those closer than the smallest feature to the one before. Also returns
+/// whether the outline is closed, and has enough points left for it.
+fn spaced(outline: &PathOutline) -> (Vec<Point2>, bool) {
+    let near = |a: Point2, b: Point2| hypot(a.x - b.x, a.y - b.y) < MIN_FEATURE;
+    let mut points: Vec<Point2> = Vec::new();
+    for p in outline.points.iter().map(|p| Point2::new(micro(p.x), micro(p.y))) {
+        if points.last().is_none_or(|&last| !near(last, p)) {
+            points.push(p);
+        }
+    }
+    // a line that comes back to its first micrometre is closed, even if the drawing does not say so
+    let closed = outline.closed || (points.len() > 3 && points.first() == points.last());
+    while closed && points.len() > 1 && near(points[0], points[points.len() - 1]) {
+        points.pop();
+    }
+    let closed = closed && points.len() >= 3;
+    (points, closed)
+}
