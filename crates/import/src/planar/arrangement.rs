@@ -57,7 +57,7 @@ impl Arrangement {
         let mut pool = VertexPool::default();
         let mut all = EdgeTable { passes: BTreeMap::new(), layers };
         for ring in rings {
-            let corners: Vec<usize> = ring.points.iter().map(|p| pool.vertex(*p)).collect();
+            let corners: Vec<usize> = ring.points.iter().map(|p| pool.vertex(rounded(*p))).collect();
             for (i, &from) in corners.iter().enumerate() {
                 all.pass(&pool.points, from, corners[(i + 1) % corners.len()], ring.layer, 1);
             }
@@ -66,7 +66,7 @@ impl Arrangement {
             if all.passes.len() > MAX_EDGES {
                 return Err(TooComplex);
             }
-            *allowance = allowance.checked_sub(COST_OF_EDGE * all.passes.len()).ok_or(TooComplex)?;
+            *allowance = allowance.checked_sub((COST_OF_EDGE + layers) * all.passes.len()).ok_or(TooComplex)?;
             let edges: Vec<UpEdge> = all.passes.keys().map(|&(low, high)| UpEdge { low, high }).collect();
             let cuts = cuts(&edges, &mut pool, allowance)?;
             if cuts.is_empty() {
@@ -192,6 +192,16 @@ fn meeting(e: UpEdge, f: UpEdge, pool: &mut VertexPool) -> Vec<(UpEdge, usize)> 
     found
 }
 
+/// Rounds a length in metres to micrometres.
+pub(crate) fn micro(x: f64) -> f64 {
+    (x * 1e6).round() / 1e6 + 0.0
+}
+
+/// Rounds a point to micrometres.
+pub(crate) fn rounded(p: Point2) -> Point2 {
+    Point2::new(micro(p.x), micro(p.y))
+}
+
 /// Where two segments cross in their insides, rounded to micrometres.
 fn crossing([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> Option<Point2> {
     let (c_side, d_side) = (orientation(a, b, c), orientation(a, b, d));
@@ -200,6 +210,113 @@ fn crossing([a, b]: [Point2; 2], [c, d]: [Point2; 2]) -> Option<Point2> {
         return None;
     }
     let p = a + (b - a) * (a_side / (a_side - b_side));
-    let micro = |x: f64| (x * 1e6).round() / 1e6 + 0.0;
-    Some(Point2::new(micro(p.x), micro(p.y)))
+    Some(rounded(p))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_lab_core::geometry::cross;
+    use motion_lab_core::random::{Seed, Stream};
+    use motion_lab_core::worlds::convex_pieces;
+
+    /// How often a closed line leads around a point: the sum of the signs of its edges that pass above it. Shares no
+    /// code with the sweep.
+    fn winding(ring: &[Point2], p: Point2) -> i32 {
+        let edge = |i: usize| (ring[i], ring[(i + 1) % ring.len()]);
+        let above = |(a, b): (Point2, Point2)| {
+            let spans = (a.x > p.x) != (b.x > p.x);
+            let y = a.y + (b.y - a.y) * (p.x - a.x) / (b.x - a.x);
+            if spans && y > p.y { if b.x > a.x { -1 } else { 1 } } else { 0 }
+        };
+        (0..ring.len()).map(edge).map(above).sum()
+    }
+
+    fn border_distance(ring: &[Point2], p: Point2) -> f64 {
+        let edge = |i: usize| Segment::new(ring[i], ring[(i + 1) % ring.len()]);
+        (0..ring.len()).map(|i| (edge(i).closest_point(p) - p).norm()).fold(f64::INFINITY, lesser)
+    }
+
+    /// Checks that the faces are simple polygons that cover exactly what a rule says, at random places away from the
+    /// lines. Returns how many places were inside.
+    fn check(rings: &[Ring], rule: impl Fn(&[i32]) -> bool, s: &mut Stream) -> usize {
+        let layers = rings.iter().map(|ring| ring.layer + 1).max().unwrap();
+        let faces = Arrangement::try_new(rings, &mut 10_000_000).ok().unwrap().inside(&rule);
+        for face in &faces {
+            assert!(convex_pieces(face).is_ok(), "{:?}: {face:?} of {rings:?}", convex_pieces(face));
+            let area: f64 = (1..face.len() - 1).map(|i| cross(face[i] - face[0], face[i + 1] - face[0])).sum();
+            assert!(area > 0.0, "{face:?}");
+        }
+        let mut inside = 0;
+        for _ in 0..60 {
+            let p = Point2::new(s.uniform(-1.0, 9.0), s.uniform(-1.0, 9.0));
+            // crossings are rounded, and vertices may move by a millimetre
+            if rings.iter().any(|ring| border_distance(&ring.points, p) < 3e-3) {
+                continue;
+            }
+            let mut windings = vec![0; layers];
+            rings.iter().for_each(|ring| windings[ring.layer] += winding(&ring.points, p));
+            let holding = faces.iter().filter(|face| winding(face, p) != 0).count();
+            assert_eq!(holding, usize::from(rule(&windings)), "{p:?} {windings:?} in {rings:?}");
+            inside += holding;
+        }
+        inside
+    }
+
+    #[test]
+    fn random_lines_enclose_what_their_rule_says() {
+        let mut s = Stream::new(Seed(1), "rings");
+        let mut inside = 0;
+        for round in 0..600 {
+            // on a lattice many corners, edges and crossings coincide
+            let lattice = round % 2 == 0;
+            let ring = |s: &mut Stream, layer: usize| {
+                let n = 3 + s.below(9) as usize;
+                let place = |s: &mut Stream| if lattice { s.below(9) as f64 } else { s.uniform(0.0, 8.0) };
+                Ring { layer, points: (0..n).map(|_| Point2::new(place(s), place(s))).collect() }
+            };
+            let count = 1 + s.below(3) as usize;
+            let mut rings: Vec<Ring> = (0..count).map(|_| ring(&mut s, 0)).collect();
+            inside += check(&rings, |w| w[0] != 0, &mut s);
+            inside += check(&rings, |w| w[0] % 2 != 0, &mut s);
+            rings.push(ring(&mut s, 1));
+            inside += check(&rings, |w| w[0] != 0 && w[1] % 2 != 0, &mut s);
+        }
+        assert!(inside > 10_000, "{inside}");
+    }
+
+    #[test]
+    fn lines_of_tiny_steps_are_cut_too() {
+        // steps of about a millimetre: corners join, edges vanish
+        let mut s = Stream::new(Seed(2), "tiny");
+        for _ in 0..300 {
+            let n = 3 + s.below(40) as usize;
+            let ring = |s: &mut Stream| Ring {
+                layer: 0,
+                points: (0..n).map(|_| Point2::new(s.uniform(0.0, 0.01), s.uniform(0.0, 0.01))).collect(),
+            };
+            let rings = [ring(&mut s), ring(&mut s)];
+            let Ok(arrangement) = Arrangement::try_new(&rings, &mut 10_000_000) else { panic!("{rings:?}") };
+            for face in arrangement.inside(|w| w[0] != 0) {
+                assert!(convex_pieces(&face).is_ok(), "{face:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn large_monotone_polygons_are_cut_into_triangles() {
+        // a comb of 1,500 teeth, lying on its side so that it is monotone
+        let teeth = (0..1_500).flat_map(|k| {
+            let y = f64::from(k) * 0.005;
+            [Point2::new(1.0, y), Point2::new(2.0 + 0.1 * f64::from(k % 3), y + 0.0025)]
+        });
+        let points: Vec<Point2> =
+            teeth.chain([Point2::new(1.0, 7.5), Point2::new(0.0, 7.4), Point2::new(0.0, 0.1)]).collect();
+        let mut s = Stream::new(Seed(3), "comb");
+        let rings = [Ring { layer: 0, points }];
+        let inside: usize = (0..5).map(|_| check(&rings, |w| w[0] != 0, &mut s)).sum();
+        assert!(inside > 5, "{inside}");
+        let faces = Arrangement::try_new(&rings, &mut 10_000_000).ok().unwrap().inside(|w| w[0] != 0);
+        assert!(faces.len() > 2_000, "{} triangles", faces.len());
+    }
 }

@@ -11,7 +11,7 @@ mod sweep;
 mod vertices;
 
 pub(crate) use affine::Affine;
-pub(crate) use arrangement::{Arrangement, Ring};
+pub(crate) use arrangement::{Arrangement, Ring, micro, rounded};
 pub(crate) use curves::{PathOutline, disc, outline};
 pub(crate) use ellipse::{EllipticArc, arc_between};
 pub(crate) use part::{CurvedPart, PathPiece};

@@ -39,7 +39,7 @@ impl<'a> SvgWalk<'a, '_> {
             map = map.after(&Affine([size.x, 0.0, 0.0, size.y, min.x, min.y]));
         }
         let region = self.clip_region(target, map, &scale_of(around), 0)?;
-        self.shapes[before..].iter_mut().for_each(|shape| shape.clips.push(region));
+        self.cut(region, before);
         Ok(())
     }
 
@@ -62,7 +62,7 @@ impl<'a> SvgWalk<'a, '_> {
             Some(own) => map.after(&own.ok_or("the transform of its clip path is not understood")?),
             None => map,
         };
-        let mut region = ClipRegion { clips: self.clips_of(node, map, scale, depth)?, shapes: Vec::new() };
+        let mut region = ClipRegion { clips: self.clips_of(node, map, scale, depth)?, ..ClipRegion::default() };
         for child in node.children().filter(is_drawn) {
             region.shapes.extend(self.clip_shape(child, map, scale, depth)?);
         }
@@ -123,7 +123,7 @@ impl<'a> SvgWalk<'a, '_> {
                 }))
             }
             "path" | "rect" | "circle" | "ellipse" | "polyline" | "polygon" => {
-                let data = ["d", "points"].iter().filter_map(|name| attribute(node, name)).map(str::len).sum::<usize>();
+                let data = node.attributes().map(|a| a.value().len()).sum::<usize>();
                 self.clip_work += 100 + data;
                 if self.clip_work > MAX_CLIP_WORK {
                     return Err("the clip paths of the drawing are too large".into());

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::planar::Ring;
-use motion_lab_core::geometry::{Point2, cross};
+use motion_lab_core::geometry::{Point2, Segment, cross};
 use motion_lab_core::num::{greater, lesser};
 
 /// One shape of a clip path.
@@ -23,6 +23,8 @@ pub(crate) struct ClipShape {
 pub(crate) struct ClipRegion {
     pub shapes: Vec<ClipShape>,
     pub clips: Vec<usize>,
+    /// The number of points of its lines and of those that cut it; found when it is added.
+    pub size: usize,
 }
 
 /// Regions by index. A region is cut by earlier ones only.
@@ -68,17 +70,17 @@ impl Extent2 {
 
 impl ClipTable {
     /// Adds a region and returns its index.
-    pub fn add(&mut self, region: ClipRegion) -> usize {
+    pub fn add(&mut self, mut region: ClipRegion) -> usize {
+        let nested = region.clips.iter().chain(region.shapes.iter().flat_map(|shape| &shape.clips));
+        let own: usize = region.shapes.iter().flat_map(|shape| &shape.rings).map(Vec::len).sum();
+        region.size = nested.map(|i| self.size(*i)).fold(1 + own, usize::saturating_add);
         self.regions.push(region);
         self.regions.len() - 1
     }
 
     /// The number of points of a region's lines, for bounds on the work.
     pub fn size(&self, index: usize) -> usize {
-        let region = &self.regions[index];
-        let nested = region.clips.iter().chain(region.shapes.iter().flat_map(|shape| &shape.clips));
-        let own: usize = region.shapes.iter().flat_map(|shape| &shape.rings).map(Vec::len).sum();
-        1 + own + nested.map(|i| self.size(*i)).sum::<usize>()
+        self.regions[index].size
     }
 
     /// Whether a region plainly holds all of these points and what they surround. `false` is inconclusive.
@@ -127,20 +129,24 @@ impl ClipTable {
             && region.shapes.iter().enumerate().any(in_shape)
     }
 
-    /// The stretches of a line that lie in a region, each a chain of points; a closed line that lies in it all comes
-    /// back with its first point at its end.
-    pub fn cut_line(&self, index: usize, points: &[Point2]) -> Vec<Vec<Point2>> {
+    /// The stretches of a line that lie in a region or on its border, each a chain of points; a closed line that lies
+    /// in it all comes back with its first point at its end. `allowance` counts the points that may still be compared;
+    /// `None` if it does not suffice.
+    pub fn cut_line(&self, index: usize, points: &[Point2], allowance: &mut usize) -> Option<Vec<Vec<Point2>>> {
         let mut chains: Vec<Vec<Point2>> = Vec::new();
         let mut lines = Vec::new();
         self.border(index, &mut lines);
+        let on_border = |p: Point2| lines.iter().any(|[c, d]| is_on(Segment::new(*c, *d), p));
         for ends in points.windows(2) {
             let [a, b] = [ends[0], ends[1]];
             let mut stops: Vec<f64> = lines.iter().filter_map(|line| meeting([a, b], *line)).collect();
             stops.extend([0.0, 1.0]);
             stops.sort_by(|s, t| s.partial_cmp(t).unwrap_or(std::cmp::Ordering::Equal));
+            *allowance = allowance.checked_sub(stops.len().saturating_mul(self.size(index)))?;
             let at = |t: f64| if t == 1.0 { b } else { a + (b - a) * t };
             for span in stops.windows(2).filter(|span| span[0] < span[1]) {
-                if !self.contains(index, at(0.5 * (span[0] + span[1]))) {
+                let middle = at(0.5 * (span[0] + span[1]));
+                if !self.contains(index, middle) && !on_border(middle) {
                     continue;
                 }
                 match chains.last_mut() {
@@ -149,7 +155,7 @@ impl ClipTable {
                 }
             }
         }
-        chains
+        Some(chains)
     }
 
     fn border(&self, index: usize, lines: &mut Vec<[Point2; 2]>) {
@@ -204,6 +210,10 @@ impl ClipShape {
 /// Whether a place with this winding number is inside.
 pub(crate) fn is_in(winding: i32, even_odd: bool) -> bool {
     if even_odd { winding % 2 != 0 } else { winding != 0 }
+}
+
+fn is_on(edge: Segment, p: Point2) -> bool {
+    (edge.closest_point(p) - p).norm() <= AT_BORDER
 }
 
 fn edges(ring: &[Point2]) -> impl Iterator<Item = [Point2; 2]> {

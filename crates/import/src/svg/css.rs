@@ -29,6 +29,9 @@ pub(crate) const PROPERTIES: [&str; 20] = [
 /// Largest number of parts of a selector. The time to match one that names ancestors grows steeply with their number.
 const MAX_PARTS: usize = 3;
 
+/// Greatest length of a value in a style sheet, bytes: a rule may hold for every element.
+const MAX_VALUE: usize = 200;
+
 /// A style sheet reduced to the properties that matter.
 pub(crate) struct StyleSheet {
     pub text: String,
@@ -72,15 +75,19 @@ pub(crate) fn declarations(style: &str) -> Vec<StyleDeclaration> {
     last
 }
 
-/// Returns the rules of a style sheet, each with the declarations that matter. Comments and rules that begin with `@`
-/// are left out.
+/// Returns the rules of a style sheet, each with the declarations that matter. Of rules that begin with `@`, those for
+/// screens are read and all others left out, as are comments.
 ///
 /// # Errors
-/// [`ImportProblem::Unsupported`] for a selector of too many parts.
+/// [`ImportProblem::Unsupported`] for a selector of too many parts, and for a value that is too long.
 pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
-    let plain = without_comments(text);
     let mut sheet = StyleSheet { text: String::new(), selectors: 0 };
-    let mut rest = plain.as_str();
+    rules(&without_comments(text), true, &mut sheet)?;
+    Ok(sheet)
+}
+
+fn rules(text: &str, may_nest: bool, sheet: &mut StyleSheet) -> Result<(), ImportProblem> {
+    let mut rest = text;
     while let Some(open) = rest.find(['{', ';']) {
         let selector = rest[..open].trim();
         if rest.as_bytes()[open] == b';' {
@@ -89,29 +96,45 @@ pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
             continue;
         }
         let close = block_end(&rest[open..]);
-        let block = rest[open..open + close].trim_matches(['{', '}']);
+        let block = &rest[open + 1..open + close];
+        let block = block.strip_suffix('}').unwrap_or(block);
         rest = &rest[open + close..];
-        if selector.starts_with('@') {
-            continue;
+        if !selector.starts_with('@') {
+            rule(selector, block, sheet)?;
+        } else if may_nest && is_for_screens(selector) {
+            rules(block, false, sheet)?;
         }
-        let declared = declarations(block);
-        if declared.is_empty() {
-            continue;
-        }
-        let mark = |important: bool| if important { " !important;" } else { ";" };
-        let text = |d: &StyleDeclaration| [d.property, ":", &d.value, mark(d.important)].concat();
-        let kept: String = declared.iter().map(text).collect();
-        for one in selector.split(',') {
-            let parts = one.split([' ', '\t', '\n', '\r', '>', '+', '~']).filter(|part| !part.is_empty()).count();
-            if parts > MAX_PARTS {
-                let problem = format!("a selector of more than {MAX_PARTS} parts in a style sheet");
-                return Err(ImportProblem::Unsupported(problem));
-            }
-            sheet.selectors += 1;
-        }
-        sheet.text.extend([selector, "{", &kept, "}"]);
     }
-    Ok(sheet)
+    Ok(())
+}
+
+fn is_for_screens(at_rule: &str) -> bool {
+    let Some(media) = at_rule.strip_prefix("@media") else { return false };
+    media.split(',').any(|query| !query.contains("print") && !query.contains("not "))
+}
+
+fn rule(selector: &str, block: &str, sheet: &mut StyleSheet) -> Result<(), ImportProblem> {
+    let declared = declarations(block);
+    if declared.is_empty() {
+        return Ok(());
+    }
+    if let Some(long) = declared.iter().find(|declaration| declaration.value.len() > MAX_VALUE) {
+        let problem = format!("a `{}` of more than {MAX_VALUE} bytes in a style sheet", long.property);
+        return Err(ImportProblem::Unsupported(problem));
+    }
+    let mark = |important: bool| if important { " !important;" } else { ";" };
+    let text = |d: &StyleDeclaration| [d.property, ":", &d.value, mark(d.important)].concat();
+    let kept: String = declared.iter().map(text).collect();
+    for one in selector.split(',') {
+        let parts = one.split([' ', '\t', '\n', '\r', '>', '+', '~']).filter(|part| !part.is_empty()).count();
+        if parts > MAX_PARTS {
+            let problem = format!("a selector of more than {MAX_PARTS} parts in a style sheet");
+            return Err(ImportProblem::Unsupported(problem));
+        }
+        sheet.selectors += 1;
+    }
+    sheet.text.extend([selector, "{", &kept, "}"]);
+    Ok(())
 }
 
 fn without_comments(text: &str) -> String {
@@ -121,7 +144,8 @@ fn without_comments(text: &str) -> String {
         plain.push_str(before);
         rest = comment.split_once("*/").map_or("", |(_, after)| after);
     }
-    plain + rest
+    // older files hide their style sheets from older readers
+    (plain + rest).replace("<!--", "").replace("-->", "")
 }
 
 /// Length of a block that begins with a brace, bytes, including the blocks in it.
@@ -156,6 +180,10 @@ mod tests {
         let sheet = "/* a{} */@import 'b';@media print { .c { fill: red } } .d, g > .e{stroke:none;filter:url(#f)} .f{";
         let sheet = style_sheet(sheet).unwrap();
         assert_eq!((sheet.text.as_str(), sheet.selectors), (".d, g > .e{stroke:none;}", 2));
+        let screens =
+            "<!-- @media screen and (x){.a{fill:none}@media all{.b{fill:none}}} @media print,all{.c{fill:red}} -->";
+        assert_eq!(style_sheet(screens).unwrap().text, ".a{fill:none;}.c{fill:red;}");
+        assert!(style_sheet(&format!(".a{{transform:{}}}", "x".repeat(201))).is_err());
         assert_eq!(texts("fill:none !important;fill:red"), ["fill:none!"]);
         assert_eq!(texts("fill:none;fill:red ! important"), ["fill:red!"]);
     }

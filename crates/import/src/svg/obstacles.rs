@@ -4,13 +4,16 @@ use super::check::Labels;
 use super::clips::{ClipLayers, ClipTable, Extent2, is_in};
 use super::walk::DrawnShape;
 use crate::draft::WorldDraft;
-use crate::planar::{Arrangement, CurvedPart, PathOutline, Ring, disc, outline};
+use crate::planar::{Arrangement, CurvedPart, PathOutline, Ring, disc, micro, outline, rounded};
 use motion_lab_core::geometry::{MIN_FEATURE, Point2, orientation};
-use motion_lab_core::num::hypot;
-use motion_lab_core::worlds::{MAX_ITEMS, ShapeText, WorldProblem, Xy};
+use motion_lab_core::num::{greater, hypot};
+use motion_lab_core::worlds::{MAX_ITEMS, ShapeText, WorldProblem, Xy, convex_pieces};
 
 /// Pairs of edges that may be compared for all shapes of a drawing that are cut or cross themselves.
 pub(crate) const MAX_COMPARISONS: usize = 20_000_000;
+
+/// Points of all lines together, before those that lie too close together are left out.
+pub(crate) const MAX_LINE_POINTS: usize = 100 * MAX_ITEMS;
 
 /// Makes obstacles of drawn shapes, one after the other.
 pub(crate) struct SvgObstacles<'a> {
@@ -22,11 +25,8 @@ pub(crate) struct SvgObstacles<'a> {
     pub sheet: Xy,
     /// Pairs of edges that may still be compared.
     pub comparisons: usize,
-}
-
-/// Rounds a length in metres to micrometres.
-pub(crate) fn micro(x: f64) -> f64 {
-    (x * 1e6).round() / 1e6 + 0.0
+    /// Points of lines that may still be made.
+    pub room: usize,
 }
 
 fn xy(p: &Point2) -> Xy {
@@ -36,15 +36,13 @@ fn xy(p: &Point2) -> Xy {
 impl<'a> SvgObstacles<'a> {
     /// Adds the obstacle of a shape, or several: a solid for what is filled, walls for what is only stroked.
     pub fn add(&mut self, shape: &DrawnShape<'_>) -> Result<(), WorldProblem> {
-        let mut room = 10 * MAX_ITEMS;
-        let follow = |part: &CurvedPart| outline(part, self.tolerance, &mut room);
+        let follow = |part: &CurvedPart| outline(part, self.tolerance, &mut self.room);
         let outlines: Option<Vec<PathOutline>> = shape.parts.iter().map(follow).collect();
         let outlines = outlines.ok_or(WorldProblem::TooMany { what: "straight pieces of its curves" })?;
         let points: Vec<Point2> = outlines.iter().flat_map(|outline| &outline.points).copied().collect();
-        let work = shape.clips.iter().map(|clip| self.clips.size(*clip)).sum::<usize>() * (1 + points.len());
-        let Some(left) = self.comparisons.checked_sub(work) else {
-            let label = self.labels.of(shape.element);
-            self.draft.note(format!("{label} is left out: its clip path has too many points"));
+        let work = shape.clips.iter().map(|clip| self.clips.size(*clip)).fold(0, usize::saturating_add);
+        let Some(left) = self.comparisons.checked_sub(work.saturating_mul(1 + points.len())) else {
+            self.note_uncut(shape);
             return Ok(());
         };
         self.comparisons = left;
@@ -56,6 +54,11 @@ impl<'a> SvgObstacles<'a> {
     /// The name of a shape's obstacle.
     fn name(&mut self, id: &str, stem: &str) -> String {
         if id.is_empty() { self.draft.world.numbered(stem) } else { self.draft.world.claim(id) }
+    }
+
+    fn note_uncut(&mut self, shape: &DrawnShape<'_>) {
+        let label = self.labels.of(shape.element);
+        self.draft.note(format!("{label} is left out: its clip path has too many points"));
     }
 
     fn walls(
@@ -71,10 +74,15 @@ impl<'a> SvgObstacles<'a> {
             }
             let mut line = outline.points.clone();
             line.extend(line.first().copied().filter(|_| outline.closed));
-            let cut = |lines: Vec<Vec<Point2>>, clip: &usize| {
-                lines.iter().flat_map(|line| self.clips.cut_line(*clip, line)).collect()
+            let (clips, left) = (self.clips, &mut self.comparisons);
+            let mut cut = |lines: Vec<Vec<Point2>>, clip: &usize| {
+                let cut_one = |line: &Vec<Point2>| clips.cut_line(*clip, line, left);
+                Some(lines.iter().map(cut_one).collect::<Option<Vec<_>>>()?.concat())
             };
-            let pieces: Vec<Vec<Point2>> = cutting.iter().fold(vec![line], cut);
+            let Some(pieces) = cutting.iter().try_fold(vec![line], &mut cut) else {
+                self.note_uncut(shape);
+                return Ok(());
+            };
             for points in pieces {
                 self.wall(shape, &PathOutline { points, closed: false })?;
             }
@@ -158,7 +166,7 @@ impl<'a> SvgObstacles<'a> {
     /// The shapes that cover what rings enclose by the fill rule, within what cuts it.
     fn members(&mut self, rings: &[PlacedRing], even_odd: bool, cutting: &[usize]) -> Result<Vec<ShapeText>, Unfilled> {
         if let ([ring], []) = (rings, cutting)
-            && let Some(shape) = ring.alone()
+            && let Some(shape) = ring.alone(&mut self.comparisons)
         {
             return Ok(vec![shape]);
         }
@@ -194,12 +202,17 @@ struct PlacedRing {
 
 impl PlacedRing {
     /// What the ring is if nothing cuts it: a disc, a box or a simple polygon; `None` if it is none of these.
-    fn alone(&self) -> Option<ShapeText> {
+    /// `allowance` counts the pairs of edges that may still be compared.
+    fn alone(&self, allowance: &mut usize) -> Option<ShapeText> {
         if let Some((center, radius)) = self.disc.filter(|(_, radius)| micro(*radius) >= MIN_FEATURE) {
             return Some(ShapeText::Disc { center: (micro(center.x), micro(center.y)), radius: micro(radius) });
         }
-        let is_polygon = || motion_lab_core::worlds::convex_pieces(&self.points).is_ok();
-        box_of(&self.points).or_else(|| is_polygon().then(|| polygon(&self.points)))
+        if let Some(found) = box_of(&self.points) {
+            return Some(found);
+        }
+        // whether it is simple takes far less than a comparison for each pair of edges
+        *allowance = allowance.checked_sub(self.points.len().pow(2) / 10)?;
+        convex_pieces(&self.points).is_ok().then(|| polygon(&self.points))
     }
 }
 
@@ -216,8 +229,41 @@ fn box_of(points: &[Point2]) -> Option<ShapeText> {
     Some(ShapeText::Box { min: xy(&min), max: xy(&max) })
 }
 
-/// Sorts rings into groups whose boxes are apart.
+/// Largest number of rings that are compared in pairs.
+const MAX_COMPARED: usize = 1_000;
+
+/// Sorts rings into groups whose boxes are apart. Where very many lie entangled, several groups may stay one.
 fn groups(rings: Vec<PlacedRing>) -> Vec<Vec<PlacedRing>> {
+    let mut parts = vec![rings];
+    for along_x in [true, false, true, false] {
+        parts = parts.into_iter().flat_map(|part| strips(part, along_x)).collect();
+    }
+    let exact = |part: Vec<PlacedRing>| if part.len() > MAX_COMPARED { vec![part] } else { joined(part) };
+    parts.into_iter().flat_map(exact).collect()
+}
+
+/// Splits rings where a straight line along an axis keeps off all of them.
+fn strips(mut rings: Vec<PlacedRing>, along_x: bool) -> Vec<Vec<PlacedRing>> {
+    let span = |ring: &PlacedRing| {
+        let Extent2 { min, max } = ring.extent;
+        if along_x { (min.x, max.x) } else { (min.y, max.y) }
+    };
+    rings.sort_by(|a, b| span(a).0.partial_cmp(&span(b).0).unwrap_or(std::cmp::Ordering::Equal));
+    let (mut strips, mut end): (Vec<Vec<PlacedRing>>, f64) = (Vec::new(), f64::NEG_INFINITY);
+    for ring in rings {
+        let (from, to) = span(&ring);
+        match strips.last_mut() {
+            // the same room as between boxes that are apart
+            Some(strip) if from <= end + MIN_FEATURE => strip.push(ring),
+            _ => strips.push(vec![ring]),
+        }
+        end = greater(end, to);
+    }
+    strips
+}
+
+/// Joins rings whose boxes meet, or meet the box of a group.
+fn joined(rings: Vec<PlacedRing>) -> Vec<Vec<PlacedRing>> {
     let mut groups: Vec<(Extent2, Vec<PlacedRing>)> = Vec::new();
     for ring in rings {
         let mut joined = (ring.extent, vec![ring]);
@@ -246,7 +292,7 @@ fn has_area(points: &[Point2]) -> bool {
 fn spaced(outline: &PathOutline) -> (Vec<Point2>, bool) {
     let near = |a: Point2, b: Point2| hypot(a.x - b.x, a.y - b.y) < MIN_FEATURE;
     let mut points: Vec<Point2> = Vec::new();
-    for p in outline.points.iter().map(|p| Point2::new(micro(p.x), micro(p.y))) {
+    for p in outline.points.iter().map(|p| rounded(*p)) {
         if points.last().is_none_or(|&last| !near(last, p)) {
             points.push(p);
         }

@@ -1,18 +1,36 @@
 //! Whether a paint shows.
 
+use std::collections::BTreeMap;
+
 use roxmltree::Node;
 
 use super::lengths::ratio;
 use super::style::{Inherited, StyleTable};
 use super::uses::{Targets, href, url_target};
 
-/// Decides what is painted. Colours that show at all count, however pale.
-pub(crate) struct Painter<'a> {
-    pub styles: &'a StyleTable,
-    pub targets: &'a Targets<'a>,
+/// Whether a gradient or a pattern shows by what it holds itself, or else its template does.
+struct PaintServer<'a> {
+    /// `None` if it has no stops and no content of its own.
+    shows: Option<bool>,
+    template: Option<&'a str>,
 }
 
-impl Painter<'_> {
+/// Decides what is painted. Colours that show at all count, however pale.
+pub(crate) struct Painter<'a> {
+    servers: BTreeMap<&'a str, PaintServer<'a>>,
+}
+
+/// Largest number of templates of a gradient that are followed.
+const MAX_TEMPLATES: usize = 10;
+
+impl<'a> Painter<'a> {
+    /// Looks at the gradients and patterns of a drawing.
+    pub fn new(targets: &Targets<'a>, styles: &StyleTable) -> Self {
+        let is_server = |node: &Node| matches!(node.tag_name().name(), "linearGradient" | "radialGradient" | "pattern");
+        let servers = targets.iter().filter(|(_, node)| is_server(node));
+        Painter { servers: servers.map(|(id, node)| (*id, PaintServer::new(*node, styles))).collect() }
+    }
+
     /// Whether a shape's inside is painted.
     pub fn fills(&self, style: &Inherited) -> bool {
         style.fill_opacity > 0.0 && self.shows(style.fill, style.color)
@@ -27,39 +45,34 @@ impl Painter<'_> {
         let paint = paint.trim();
         let Some(id) = url_target(paint) else { return is_opaque(paint, color) };
         let fallback = paint.split_once(')').map_or("", |(_, after)| after.trim());
-        match self.targets.get(id) {
-            Some(server) if self.paints(*server, 0) => true,
-            Some(server) if is_server(server) => false,
-            // as in browsers, what is not there paints nothing
-            _ => !fallback.is_empty() && is_opaque(fallback, color),
+        if self.servers.contains_key(id) {
+            return self.server_shows(id);
         }
+        // as in browsers, what is not there paints nothing
+        !fallback.is_empty() && is_opaque(fallback, color)
     }
 
-    /// Whether a gradient or a pattern shows anywhere.
-    fn paints(&self, server: Node, depth: usize) -> bool {
-        const DEEPEST_TEMPLATE: usize = 10;
-        if !is_server(&server) {
-            return false;
-        }
-        let stops = server.children().filter(|node| node.tag_name().name() == "stop");
-        let shows = |stop: Node| {
-            let own = |property: &str| self.styles.own(stop, property);
-            own("stop-opacity").and_then(ratio).is_none_or(|opacity| opacity > 0.0)
-                && own("stop-color").is_none_or(|color| is_opaque(color, "black"))
-        };
-        if server.tag_name().name() == "pattern" && server.children().any(|node| node.is_element()) {
-            return true;
-        }
-        if stops.clone().next().is_some() {
-            return { stops }.any(shows);
-        }
-        let template = href(&server).and_then(|href| self.targets.get(href.strip_prefix('#')?));
-        depth < DEEPEST_TEMPLATE && template.is_some_and(|template| self.paints(*template, depth + 1))
+    fn server_shows(&self, id: &str) -> bool {
+        let template = |server: &&PaintServer| server.template.and_then(|id| self.servers.get(id));
+        let chain = std::iter::successors(self.servers.get(id), template).take(MAX_TEMPLATES);
+        { chain }.find_map(|server| server.shows).unwrap_or(false)
     }
 }
 
-fn is_server(node: &Node) -> bool {
-    matches!(node.tag_name().name(), "linearGradient" | "radialGradient" | "pattern")
+impl<'a> PaintServer<'a> {
+    fn new(node: Node<'a, 'a>, styles: &StyleTable) -> Self {
+        let shows = |stop: Node| {
+            let own = |property: &str| styles.own(stop, property);
+            own("stop-opacity").and_then(ratio).is_none_or(|opacity| opacity > 0.0)
+                && own("stop-color").is_none_or(|color| is_opaque(color, "black"))
+        };
+        let is_pattern = node.tag_name().name() == "pattern";
+        let is_content = |child: Node| child.is_element() && (is_pattern || child.tag_name().name() == "stop");
+        let is_empty = !node.children().any(is_content);
+        let mut stops = node.children().filter(|child| child.tag_name().name() == "stop");
+        let own = if is_pattern { !is_empty } else { stops.any(shows) };
+        PaintServer { shows: (!is_empty).then_some(own), template: href(&node).and_then(|href| href.strip_prefix('#')) }
+    }
 }
 
 /// Whether a colour is more than nothing. `color` is what `currentColor` stands for. A colour that is not understood

@@ -4,14 +4,14 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use super::check::{Labels, TEXT_LEFT_OUT, check};
 use super::clips::Extent2;
-use super::obstacles::{MAX_COMPARISONS, SvgObstacles, micro};
+use super::obstacles::{MAX_COMPARISONS, MAX_LINE_POINTS, SvgObstacles};
 use super::scan::scan;
 use super::style::{FONT_SIZE, StyleTable};
 use super::uses::{Targets, check_uses, is_drawn, targets};
 use super::viewport::{SheetSize, sheet_size, view_box};
 use super::walk::SvgWalk;
 use crate::error::wrong_value;
-use crate::planar::Affine;
+use crate::planar::{Affine, micro};
 use crate::{ImportError, ImportProblem, Imported, WorldDraft};
 use motion_lab_core::geometry::MIN_FEATURE;
 
@@ -112,8 +112,15 @@ impl SvgDrawing<'_> {
         let (shapes, clips) = (walk.shapes, walk.clips);
         let sheet = (micro(pixels.0 * scale), micro(pixels.1 * scale));
         let (labels, tolerance) = (self.labels, self.options.tolerance);
-        let mut obstacles =
-            SvgObstacles { draft, clips: &clips, labels, tolerance, sheet, comparisons: MAX_COMPARISONS };
+        let mut obstacles = SvgObstacles {
+            draft,
+            clips: &clips,
+            labels,
+            tolerance,
+            sheet,
+            comparisons: MAX_COMPARISONS,
+            room: MAX_LINE_POINTS,
+        };
         for shape in &shapes {
             obstacles.add(shape).map_err(|problem| ImportError::at(0, shape.id.as_str(), problem))?;
         }

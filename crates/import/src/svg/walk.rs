@@ -13,9 +13,9 @@ use super::style::{FONT_SIZE, Inherited, StyleTable};
 use super::transforms::{ReferenceBox, transform_list, transform_origin};
 use super::uses::{Targets, href, is_drawn, url_target};
 use super::viewport::{ViewRect, fit, view_box};
-use crate::ImportError;
 use crate::draft::WorldDraft;
 use crate::planar::{Affine, CurvedPart, outline};
+use crate::{ImportError, ImportProblem};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::worlds::MAX_ITEMS;
 
@@ -46,16 +46,21 @@ pub(crate) struct WalkContext<'s> {
     size: [Option<f64>; 2],
 }
 
+/// Largest number of regions of all shapes together: regions may be nested as deeply as elements.
+const MAX_CUTS: usize = 1_000_000;
+
 /// Walks through a drawing: its elements as steps still to be done, the shapes found so far.
 pub(crate) struct SvgWalk<'a, 'd> {
     pub styles: &'a StyleTable,
     pub targets: &'a Targets<'a>,
+    painter: Painter<'a>,
     pub labels: &'a Labels,
     pub tolerance: f64,
     pub draft: &'d mut WorldDraft,
     pub clips: ClipTable,
     pub shapes: Vec<DrawnShape<'a>>,
     steps: Vec<WalkStep<'a>>,
+    cuts: usize,
     pub clips_read: BTreeMap<(usize, [u64; 6]), usize>,
     /// What the clip paths that were read have taken.
     pub clip_work: usize,
@@ -89,12 +94,14 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         SvgWalk {
             styles,
             targets,
+            painter: Painter::new(targets, styles),
             labels,
             tolerance,
             draft,
             clips: ClipTable::default(),
             shapes: Vec::new(),
             steps: Vec::new(),
+            cuts: 0,
             clips_read: BTreeMap::new(),
             clip_work: 0,
         }
@@ -108,9 +115,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         while let Some(step) = self.steps.pop() {
             match step {
                 WalkStep::Element(node, around) => self.element(node, &around)?,
-                WalkStep::Viewport { region, from } => {
-                    self.shapes[from..].iter_mut().for_each(|shape| shape.clips.push(region));
-                }
+                WalkStep::Viewport { region, from } => self.cut(region, from),
                 WalkStep::ClipPath { node, text, around, from } => {
                     if self.shapes.len() > from
                         && let Err(why) = self.clip(text, &around, from)
@@ -121,7 +126,21 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
                 }
             }
         }
-        Ok(())
+        match self.cuts {
+            0..=MAX_CUTS => Ok(()),
+            _ => Err(ImportProblem::Unsupported(format!(
+                "more than {MAX_CUTS} cuts of shapes by clip paths and viewports"
+            ))
+            .into()),
+        }
+    }
+
+    /// Cuts the shapes from this one on at a region.
+    pub fn cut(&mut self, region: usize, from: usize) {
+        self.cuts += self.shapes.len() - from;
+        if self.cuts <= MAX_CUTS {
+            self.shapes[from..].iter_mut().for_each(|shape| shape.clips.push(region));
+        }
     }
 
     fn note(&mut self, node: Node, note: impl FnOnce(String) -> String) {
@@ -186,8 +205,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     }
 
     fn shape(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
-        let painter = Painter { styles: self.styles, targets: self.targets };
-        let (filled, stroked) = (painter.fills(&around.style), painter.strokes(&around.style));
+        let (filled, stroked) = (self.painter.fills(&around.style), self.painter.strokes(&around.style));
         let is_line = node.tag_name().name() == "line";
         if around.style.hidden || !(filled && !is_line || stroked) {
             self.draft.note("what is drawn invisibly is left out");
@@ -252,7 +270,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
             let ring = corners.map(|(x, y)| around.map.point(Point2::new(x, y))).to_vec();
             let shape = ClipShape::new(vec![ring], false, Vec::new());
-            let region = self.clips.add(ClipRegion { shapes: vec![shape], clips: Vec::new() });
+            let region = self.clips.add(ClipRegion { shapes: vec![shape], ..ClipRegion::default() });
             self.steps.push(WalkStep::Viewport { region, from: self.shapes.len() });
         }
         self.children(node, &inner);

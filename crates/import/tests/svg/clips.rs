@@ -162,3 +162,50 @@ fn many_shapes_under_large_clip_paths_take_bounded_time() {
         found.world.obstacles.iter().flat_map(|o| o.placed()).all(|p| lies_in(&p.bounds(), [-1.0, 0.0, 20.0, 11.0]))
     );
 }
+
+/// Drawings whose cuts would take their reader minutes or gigabytes.
+#[test]
+fn cuts_of_cuts_take_bounded_time() {
+    // each clip path has ten shapes, and each of them is cut by the clip path before it: 10^9 shapes in all
+    let clip = |k: usize| {
+        let cut = if k > 0 { format!("clip-path='url(#c{})'", k - 1) } else { String::new() };
+        format!("<clipPath id='c{k}'>{}</clipPath>", format!("<rect width='19' height='9' {cut}/>").repeat(10))
+    };
+    let clips: String = (0..9).map(clip).collect();
+    let found = drawn(&format!("{clips}<g id='g' clip-path='url(#c8)'>{BOX}</g><circle id='post' r='1'/>"));
+    assert_eq!(names(&found.world), ["post"]);
+    assert_eq!(found.notes, ["rect \"box\" is left out: its clip path has too many points"]);
+    // a thousand viewports around thousands of shapes
+    let open = "<svg width='20' height='10'>".repeat(900);
+    let text = format!("{open}{}{}", "<rect width='1' height='1'/>".repeat(3_000), "</svg>".repeat(900));
+    let error = motion_lab_import::svg("d.svg", &super::sheet(&text), "d", super::SvgOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("more than 1000000 cuts of shapes"), "{error}");
+    // a wall that crosses a comb's teeth a million times
+    let teeth: String = (0..1_500).map(|k| format!("{0}.{1:02} 2 {0}.{1:02} 8 ", k / 100, k % 100)).collect();
+    let comb = format!("<clipPath id='c'><polygon points='{teeth} 15 9 0 9'/></clipPath>");
+    let zigzag = "h15l0 .01h-15l0 .01".repeat(400);
+    let wall = format!("<path id='wall' fill='none' stroke='red' clip-path='url(#c)' d='M0 3{zigzag}'/>");
+    let found = drawn(&format!("{comb}{wall}<circle id='post' r='1'/>"));
+    assert_eq!(names(&found.world), ["post"]);
+    assert_eq!(found.notes, ["path \"wall\" is left out: its clip path has too many points"]);
+}
+
+#[test]
+fn what_repeats_long_attributes_is_refused() {
+    let long = format!("<g id='u' transform='{}'>{BOX}</g>", "translate(0)".repeat(100_000));
+    let text = super::sheet(&format!("{long}{}", "<use href='#u'/>".repeat(100)));
+    let error = motion_lab_import::svg("d.svg", &text, "d", super::SvgOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("bytes of attributes"), "{error}");
+    let rule = format!("<style>rect{{transform:{}}}</style>{BOX}", "translate(0)".repeat(20));
+    let error = motion_lab_import::svg("d.svg", &super::sheet(&rule), "d", super::SvgOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("a `transform` of more than 200 bytes in a style sheet"), "{error}");
+}
+
+#[test]
+fn a_path_of_very_many_parts_is_read_in_time() {
+    let columns: String = (0..20_000)
+        .map(|k| format!("M{} {}h.05v.05h-.05z", f64::from(k % 199) * 0.1, f64::from(k / 199) * 0.09))
+        .collect();
+    let found = drawn(&format!("<path id='columns' d='{columns}'/>"));
+    assert_eq!(found.world.obstacle("columns").unwrap().pieces.len(), 20_000);
+}
