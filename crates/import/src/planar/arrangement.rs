@@ -45,6 +45,8 @@ pub(crate) struct Arrangement {
     edges: Vec<UpEdge>,
     passes: Vec<Passes>,
     layers: usize,
+    /// Whether the lines nowhere meet but in their own corners.
+    is_uncut: bool,
 }
 
 impl Arrangement {
@@ -62,7 +64,7 @@ impl Arrangement {
                 all.pass(&pool.points, from, corners[(i + 1) % corners.len()], ring.layer, 1);
             }
         }
-        for _ in 0..MAX_ROUNDS {
+        for round in 0..MAX_ROUNDS {
             if all.passes.len() > MAX_EDGES {
                 return Err(TooComplex);
             }
@@ -71,11 +73,20 @@ impl Arrangement {
             let cuts = cuts(&edges, &mut pool, allowance)?;
             if cuts.is_empty() {
                 let passes = all.passes.into_values().collect();
-                return Ok(Arrangement { points: pool.points, edges, passes, layers });
+                let is_uncut = round == 0;
+                return Ok(Arrangement { points: pool.points, edges, passes, layers, is_uncut });
             }
             all = all.cut(&pool.points, &cuts);
         }
         Err(TooComplex)
+    }
+
+    /// Whether a closed line is the border of a simple polygon, all of whose corners are apart. `allowance` is as for
+    /// [`try_new`](Self::try_new); `false` also if it does not suffice.
+    pub fn is_simple(ring: &[Point2], allowance: &mut usize) -> bool {
+        let rings = [Ring { layer: 0, points: ring.to_vec() }];
+        let cut = Arrangement::try_new(&rings, allowance);
+        cut.is_ok_and(|cut| cut.is_uncut && cut.points.len() == ring.len() && cut.edges.len() == ring.len())
     }
 
     /// Returns the simple polygons that together cover what is inside: where `is_inside` holds for the winding numbers,

@@ -32,11 +32,12 @@ const MAX_PARTS: usize = 3;
 /// Greatest length of a value in a style sheet, bytes: a rule may hold for every element.
 const MAX_VALUE: usize = 200;
 
-/// A style sheet reduced to the properties that matter.
-pub(crate) struct StyleSheet {
-    pub text: String,
-    /// Number of its selectors.
-    pub selectors: usize,
+/// A rule of a style sheet, with the properties that matter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct SheetRule {
+    /// Each as written.
+    pub selectors: Vec<String>,
+    pub declarations: Vec<StyleDeclaration>,
 }
 
 /// A declaration of a property that matters.
@@ -80,13 +81,13 @@ pub(crate) fn declarations(style: &str) -> Vec<StyleDeclaration> {
 ///
 /// # Errors
 /// [`ImportProblem::Unsupported`] for a selector of too many parts, and for a value that is too long.
-pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
-    let mut sheet = StyleSheet { text: String::new(), selectors: 0 };
+pub(crate) fn style_sheet(text: &str) -> Result<Vec<SheetRule>, ImportProblem> {
+    let mut sheet = Vec::new();
     rules(&without_comments(text), true, &mut sheet)?;
     Ok(sheet)
 }
 
-fn rules(text: &str, may_nest: bool, sheet: &mut StyleSheet) -> Result<(), ImportProblem> {
+fn rules(text: &str, may_nest: bool, sheet: &mut Vec<SheetRule>) -> Result<(), ImportProblem> {
     let mut rest = text;
     while let Some(open) = rest.find(['{', ';']) {
         let selector = rest[..open].trim();
@@ -113,7 +114,7 @@ fn is_for_screens(at_rule: &str) -> bool {
     media.split(',').any(|query| !query.contains("print") && !query.contains("not "))
 }
 
-fn rule(selector: &str, block: &str, sheet: &mut StyleSheet) -> Result<(), ImportProblem> {
+fn rule(selector: &str, block: &str, sheet: &mut Vec<SheetRule>) -> Result<(), ImportProblem> {
     let declared = declarations(block);
     if declared.is_empty() {
         return Ok(());
@@ -122,18 +123,16 @@ fn rule(selector: &str, block: &str, sheet: &mut StyleSheet) -> Result<(), Impor
         let problem = format!("a `{}` of more than {MAX_VALUE} bytes in a style sheet", long.property);
         return Err(ImportProblem::Unsupported(problem));
     }
-    let mark = |important: bool| if important { " !important;" } else { ";" };
-    let text = |d: &StyleDeclaration| [d.property, ":", &d.value, mark(d.important)].concat();
-    let kept: String = declared.iter().map(text).collect();
+    let mut selectors = Vec::new();
     for one in selector.split(',') {
         let parts = one.split([' ', '\t', '\n', '\r', '>', '+', '~']).filter(|part| !part.is_empty()).count();
         if parts > MAX_PARTS {
             let problem = format!("a selector of more than {MAX_PARTS} parts in a style sheet");
             return Err(ImportProblem::Unsupported(problem));
         }
-        sheet.selectors += 1;
+        selectors.push(one.trim().to_owned());
     }
-    sheet.text.extend([selector, "{", &kept, "}"]);
+    sheet.push(SheetRule { selectors, declarations: declared });
     Ok(())
 }
 
@@ -173,16 +172,19 @@ mod tests {
         declarations(style).iter().map(|d| format!("{}:{}{}", d.property, d.value, mark(d.important))).collect()
     }
 
+    fn selectors(sheet: &str) -> Vec<String> {
+        style_sheet(sheet).unwrap().into_iter().flat_map(|rule| rule.selectors).collect()
+    }
+
     #[test]
     fn what_decides_nothing_is_left_out() {
         let style = "fill:red; filter:url(#f);fill : url(#g) none;marker-mid:url(#m); display:none;x";
         assert_eq!(texts(style), ["fill:url(#g) none", "display:none"]);
         let sheet = "/* a{} */@import 'b';@media print { .c { fill: red } } .d, g > .e{stroke:none;filter:url(#f)} .f{";
-        let sheet = style_sheet(sheet).unwrap();
-        assert_eq!((sheet.text.as_str(), sheet.selectors), (".d, g > .e{stroke:none;}", 2));
+        assert_eq!(selectors(sheet), [".d", "g > .e"]);
         let screens =
             "<!-- @media screen and (x){.a{fill:none}@media all{.b{fill:none}}} @media print,all{.c{fill:red}} -->";
-        assert_eq!(style_sheet(screens).unwrap().text, ".a{fill:none;}.c{fill:red;}");
+        assert_eq!(selectors(screens), [".a", ".c"]);
         assert!(style_sheet(&format!(".a{{transform:{}}}", "x".repeat(201))).is_err());
         assert_eq!(texts("fill:none !important;fill:red"), ["fill:none!"]);
         assert_eq!(texts("fill:none;fill:red ! important"), ["fill:red!"]);
@@ -190,8 +192,8 @@ mod tests {
 
     #[test]
     fn long_selectors_are_refused() {
-        assert_eq!(style_sheet("g > .a b{fill:red}").unwrap().selectors, 1);
+        assert_eq!(selectors("g > .a b{fill:red}"), ["g > .a b"]);
         assert!(style_sheet("g > .a b *{fill:red}").is_err());
-        assert_eq!(style_sheet("g > .a b text{font-weight:bold}").unwrap().selectors, 0);
+        assert!(selectors("g > .a b text{font-weight:bold}").is_empty());
     }
 }

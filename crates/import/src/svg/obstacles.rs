@@ -5,9 +5,9 @@ use super::clips::{ClipLayers, ClipTable, Extent2, is_in};
 use super::walk::DrawnShape;
 use crate::draft::WorldDraft;
 use crate::planar::{Arrangement, CurvedPart, PathOutline, Ring, disc, micro, outline, rounded};
-use motion_lab_core::geometry::{MIN_FEATURE, Point2, orientation};
+use motion_lab_core::geometry::{ConvexPolygon, MIN_FEATURE, Point2, orientation};
 use motion_lab_core::num::{greater, hypot};
-use motion_lab_core::worlds::{MAX_ITEMS, ShapeText, WorldProblem, Xy, convex_pieces};
+use motion_lab_core::worlds::{MAX_CONCAVE_VERTICES, MAX_ITEMS, ShapeText, WorldProblem, Xy};
 
 /// Pairs of edges that may be compared for all shapes of a drawing that are cut or cross themselves.
 pub(crate) const MAX_COMPARISONS: usize = 20_000_000;
@@ -140,7 +140,15 @@ impl<'a> SvgObstacles<'a> {
             self.draft.note("a filled shape that covers the whole sheet is taken for its paper and left out");
             return if shape.stroked { self.walls(shape, outlines, cutting) } else { Ok(()) };
         }
-        self.add_members(shape, members)?;
+        match self.add_members(shape, members) {
+            // a part that no cut between its corners divides
+            Err(WorldProblem::Outline(reason)) => {
+                let label = self.labels.of(shape.element);
+                self.draft.note(format!("{label} is drawn as its outline: {reason}"));
+                return self.walls(shape, outlines, cutting);
+            }
+            added => added?,
+        }
         self.walls(shape, &thin, cutting)
     }
 
@@ -210,9 +218,8 @@ impl PlacedRing {
         if let Some(found) = box_of(&self.points) {
             return Some(found);
         }
-        // whether it is simple takes far less than a comparison for each pair of edges
-        *allowance = allowance.checked_sub(self.points.len().pow(2) / 10)?;
-        convex_pieces(&self.points).is_ok().then(|| polygon(&self.points))
+        let fits = self.points.len() <= MAX_CONCAVE_VERTICES || ConvexPolygon::try_new(&self.points).is_ok();
+        (fits && Arrangement::is_simple(&self.points, allowance)).then(|| polygon(&self.points))
     }
 }
 

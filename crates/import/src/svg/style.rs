@@ -3,10 +3,10 @@
 use std::cmp::Ordering;
 
 use roxmltree::{Document, Node};
-use simplecss::{AttributeOperator, Element, PseudoClass};
+use simplecss::{AttributeOperator, Element, PseudoClass, Selector};
 
 use super::check::{at, attribute};
-use super::css::{StyleDeclaration, StyleSheet, declarations, style_sheet};
+use super::css::{SheetRule, StyleDeclaration, declarations, style_sheet};
 use super::lengths::{Along, LengthScale, ratio};
 use super::scan::MAX_ELEMENTS;
 use crate::{ImportError, ImportProblem};
@@ -31,11 +31,19 @@ impl StyleTable {
         let sheet = style_sheets(document)?;
         let elements = document.descendants().filter(Node::is_element);
         let count = elements.clone().take(4 * MAX_ELEMENTS).count();
-        if count * sheet.selectors > MAX_MATCHES {
-            let problem = format!("style sheets of {} selectors for {count} elements", sheet.selectors);
+        let selectors: usize = sheet.iter().map(|rule| rule.selectors.len()).sum();
+        if count * selectors > MAX_MATCHES {
+            let problem = format!("style sheets of {selectors} selectors for {count} elements");
             return Err(ImportProblem::Unsupported(problem).into());
         }
-        let rules = simplecss::StyleSheet::parse(&sheet.text);
+        let mut rules: Vec<(Selector, &[StyleDeclaration])> = Vec::new();
+        for rule in &sheet {
+            rules.extend(
+                rule.selectors.iter().filter_map(|text| Some((Selector::parse(text)?, &rule.declarations[..]))),
+            );
+        }
+        // of rules that are equally specific, the later one counts more
+        rules.sort_by_cached_key(|(selector, _)| selector.specificity());
         let mut declared = Vec::new();
         for node in elements {
             declared.resize(node.id().get_usize() + 1, Vec::new());
@@ -52,8 +60,8 @@ impl StyleTable {
     }
 }
 
-fn style_sheets(document: &Document) -> Result<StyleSheet, ImportError> {
-    let mut all = StyleSheet { text: String::new(), selectors: 0 };
+fn style_sheets(document: &Document) -> Result<Vec<SheetRule>, ImportError> {
+    let mut all = Vec::new();
     let mut length = 0;
     for node in document.descendants().filter(|node| node.is_element() && node.tag_name().name() == "style") {
         if attribute(node, "type").is_some_and(|kind| !matches!(kind.trim(), "" | "text/css")) {
@@ -65,24 +73,19 @@ fn style_sheets(document: &Document) -> Result<StyleSheet, ImportError> {
             let problem = format!("more than {MAX_STYLES} bytes of style sheets");
             return Err(at(node, ImportProblem::Unsupported(problem)));
         }
-        let sheet = style_sheet(&text).map_err(|problem| at(node, problem))?;
-        all.text.push_str(&sheet.text);
-        all.selectors += sheet.selectors;
+        all.extend(style_sheet(&text).map_err(|problem| at(node, problem))?);
     }
     Ok(all)
 }
 
 /// Attributes count least, then rules by how specific they are, then the `style` attribute; of all these what is
 /// `!important` counts most.
-fn declarations_of(node: Node, rules: &simplecss::StyleSheet) -> Vec<StyleDeclaration> {
+fn declarations_of(node: Node, rules: &[(Selector, &[StyleDeclaration])]) -> Vec<StyleDeclaration> {
     let attributes = node.attributes().filter(|a| a.namespace().is_none());
     let mut all: Vec<StyleDeclaration> =
         attributes.filter_map(|a| StyleDeclaration::new(a.name(), a.value())).collect();
-    for rule in rules.rules.iter().filter(|rule| rule.selector.matches(&StyledElement(node))) {
-        let found = rule.declarations.iter().filter_map(|d| {
-            Some(StyleDeclaration { important: d.important, ..StyleDeclaration::new(d.name, d.value)? })
-        });
-        all.extend(found);
+    for (_, declared) in rules.iter().filter(|(selector, _)| selector.matches(&StyledElement(node))) {
+        all.extend_from_slice(declared);
     }
     all.extend(attribute(node, "style").map(declarations).unwrap_or_default());
     // a stable order, from which the last of each property is kept
