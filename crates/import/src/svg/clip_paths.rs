@@ -11,9 +11,9 @@ use super::walk::{SvgWalk, WalkContext, scale_of};
 use crate::planar::{Affine, CurvedPart, outline};
 use motion_lab_core::worlds::MAX_ITEMS;
 
-/// Bytes of the paths of all clip paths together, and a hundred for each of their shapes. A clip path is read for each
-/// transform under which it is used.
-const MAX_CLIP_WORK: usize = 4 << 20;
+/// Bytes of the attributes of all clip paths together, a hundred for each of their shapes and of the pieces whose box is
+/// asked for, and eight for each point of their lines. A clip path is read for each transform under which it is used.
+const MAX_CLIP_WORK: usize = 8 << 20;
 
 /// Depth of clip paths that are cut themselves.
 const MAX_CLIP_DEPTH: usize = 10;
@@ -34,12 +34,22 @@ impl<'a> SvgWalk<'a, '_> {
             let back = map.inverse().ok_or("its transform flattens it")?;
             let parts: Vec<CurvedPart> =
                 self.shapes[before..].iter().flat_map(|shape| &shape.parts).map(|part| part.mapped(&back)).collect();
+            self.spend(parts.iter().map(|part| 100 * (1 + part.pieces.len())).sum())?;
             let Extent2 { min, max } = self.extent(&parts).ok_or("it has no box to cut")?;
             let size = max - min;
             map = map.after(&Affine([size.x, 0.0, 0.0, size.y, min.x, min.y]));
         }
         let region = self.clip_region(target, map, &scale_of(around), 0)?;
         self.cut(region, before);
+        Ok(())
+    }
+
+    /// Counts work, by the measure of [`MAX_CLIP_WORK`].
+    fn spend(&mut self, work: usize) -> Result<(), LeftOut> {
+        self.clip_work = self.clip_work.saturating_add(work);
+        if self.clip_work > MAX_CLIP_WORK {
+            return Err("the clip paths of the drawing are too large".into());
+        }
         Ok(())
     }
 
@@ -123,17 +133,14 @@ impl<'a> SvgWalk<'a, '_> {
                 }))
             }
             "path" | "rect" | "circle" | "ellipse" | "polyline" | "polygon" => {
-                let data = node.attributes().map(|a| a.value().len()).sum::<usize>();
-                self.clip_work += 100 + data;
-                if self.clip_work > MAX_CLIP_WORK {
-                    return Err("the clip paths of the drawing are too large".into());
-                }
+                self.spend(100 + node.attributes().map(|a| a.value().len()).sum::<usize>())?;
                 let parts = parts(node, scale).map_err(|error| format!("its clip path has {}", error.problem))?.0;
                 let mut room = MAX_ITEMS;
                 let ring = |part: &CurvedPart| Some(outline(&part.mapped(&map), self.tolerance, &mut room)?.points);
                 let rings: Option<Vec<_>> = parts.iter().map(ring).collect();
                 let even_odd = node.ancestors().find_map(|n| own(n, "clip-rule")).is_some_and(|rule| rule == "evenodd");
                 let rings = rings.ok_or("the curves of its clip path are too large")?;
+                self.spend(8 * rings.iter().map(Vec::len).sum::<usize>())?;
                 Ok(Some(ClipShape::new(rings, even_odd, clips)))
             }
             "text" => Err("its clip path is a text".into()),

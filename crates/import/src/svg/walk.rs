@@ -295,7 +295,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     pub fn extent(&self, parts: &[CurvedPart]) -> Option<Extent2> {
         let rough = Extent2::of(parts.iter().map(|part| &part.start))?;
         let tolerance = 1e-6 * (1.0 + (rough.max - rough.min).norm());
-        let mut room = MAX_ITEMS;
+        let mut room = 100 * MAX_ITEMS;
         let outlines: Vec<_> = parts.iter().map(|part| outline(part, tolerance, &mut room)).collect::<Option<_>>()?;
         Extent2::of(outlines.iter().flat_map(|outline| &outline.points))
     }

@@ -209,3 +209,15 @@ fn a_path_of_very_many_parts_is_read_in_time() {
     let found = drawn(&format!("<path id='columns' d='{columns}'/>"));
     assert_eq!(found.world.obstacle("columns").unwrap().pieces.len(), 20_000);
 }
+
+#[test]
+fn large_curves_of_many_clip_paths_take_bounded_memory() {
+    // each circle is followed by 70,000 chords, under a thousand transforms
+    let clip = "<clipPath id='c'><circle r='1000000'/></clipPath>";
+    let cut = |k: i32| format!("<g transform='translate({}.5)' clip-path='url(#c)'><circle r='.1'/></g>", k % 19);
+    let moved = |k: i32| cut(k).replace(".5)", &format!(".{k:04})"));
+    let text: String = (0..1_000).map(moved).collect();
+    let found = drawn(&format!("{clip}{text}<circle id='post' r='1'/>"));
+    assert!(found.world.obstacle("post").is_some());
+    assert!(found.notes.iter().any(|note| note.ends_with("the clip paths of the drawing are too large")));
+}
