@@ -11,8 +11,9 @@ use super::walk::{SvgWalk, WalkContext, scale_of};
 use crate::planar::{Affine, CurvedPart, outline};
 use motion_lab_core::worlds::MAX_ITEMS;
 
-/// Bytes of the attributes of all clip paths together, a hundred for each of their shapes and of the pieces whose box is
-/// asked for, and eight for each point of their lines. A clip path is read for each transform under which it is used.
+/// Bytes of the attributes of all clip paths together, a hundred for each of their shapes and of the pieces whose box
+/// is asked for, and eight for each point of their lines. A clip path is read for each transform under which it is
+/// used.
 const MAX_CLIP_WORK: usize = 8 << 20;
 
 /// Depth of clip paths that are cut themselves.
