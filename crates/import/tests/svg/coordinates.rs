@@ -51,9 +51,9 @@ fn an_offset_that_groups_undo_costs_no_digits() {
 
 #[test]
 fn a_line_that_comes_back_to_its_beginning_is_closed() {
-    // 0.1 + 0.2 + 0.3 - 0.6 is no zero in binary
+    // 1.3 + 0.1 + 0.2 + 0.3 - 0.6 is not 1.3 in binary
     for back in ["l0.1 0l0.2 0l0.3 0l0 1l-0.6 0l0 -1", "h.6v1h-.6z", "h.6v1h-.6v-1z", "h.6v1h-.6v-1"] {
-        let world = drawn(&format!("<path id='ring' fill='none' stroke='red' d='M1.1 1.1{back}'/>")).world;
+        let world = drawn(&format!("<path id='ring' fill='none' stroke='red' d='M1.3 1.1{back}'/>")).world;
         let ring = world.obstacle("ring").unwrap();
         let last = ring.placed().last().unwrap();
         assert_eq!((ring.kind, ring.pieces.len() >= 4), (ObstacleKind::Wall, true));
