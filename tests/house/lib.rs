@@ -37,7 +37,7 @@ const ORDER: [(&str, &[&str]); 5] = [
         "motion_lab_sim",
         &["tour", "run", "anatomy", "atlas", "simulation", "recording", "export", "plans", "manifest", "capture"],
     ),
-    ("motion_lab_import", &["error", "draft", "yaml", "map", "irsim", "svg"]),
+    ("motion_lab_import", &["error", "draft", "yaml", "map", "irsim", "planar", "svg"]),
     ("motion_lab_raster", &["error", "few_colours", "painter", "files"]),
     ("motion_lab", &["course", "output", "batch", "capture", "window", "web", "guide", "cli"]),
 ];
@@ -207,11 +207,11 @@ fn the_core_depends_on_what_planners_need() {
     assert!(core.iter().any(|c| c.starts_with("parry2d-f64 ")), "this test no longer reads the tree: {core:?}");
     let sim = crates("motion-lab-sim");
     assert!(sim.iter().any(|c| c.starts_with("bevy_ecs ")) && sim.iter().any(|c| c.starts_with("mcap ")));
-    for stranger in ["clap", "resvg", "usvg", "egui", "bevy_render", "saphyr-parser"] {
+    for stranger in ["clap", "resvg", "usvg", "roxmltree", "egui", "bevy_render", "saphyr-parser"] {
         assert!(!sim.iter().any(|c| c.starts_with(&format!("{stranger} "))), "the simulator depends on {stranger}");
     }
     let import = crates("motion-lab-import");
-    assert!(import.iter().any(|c| c.starts_with("usvg ")) && !import.iter().any(|c| c.starts_with("bevy")));
+    assert!(import.iter().any(|c| c.starts_with("roxmltree ")) && !import.iter().any(|c| c.starts_with("bevy")));
 }
 
 /// Planners handle the lab's own types only. A signature is the text from `pub` to the next brace or semicolon.

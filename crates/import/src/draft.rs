@@ -28,6 +28,11 @@ impl WorldDraft {
         }
     }
 
+    /// The first note that says of a thing that it is left out.
+    pub fn first_left_out(&self) -> Option<&str> {
+        self.notes.iter().map(String::as_str).find(|note| note.contains(" is left out"))
+    }
+
     /// Returns the finished world with these bounds, and the notes.
     pub fn finish(self, name: &str, min: Xy, max: Xy) -> Result<Imported, WorldProblem> {
         Ok(Imported { world: self.world.finish(name, min, max)?, notes: self.notes })

@@ -95,6 +95,9 @@ pub enum ImportProblem {
     /// The file holds no obstacle.
     #[error("there is no obstacle in it")]
     Nothing,
+    /// What the file holds is left out: the note that says so.
+    #[error("there is no obstacle in it: {0}")]
+    NothingLeft(String),
     /// Something that no world can hold.
     #[error(transparent)]
     World(#[from] WorldProblem),

@@ -14,6 +14,7 @@ mod draft;
 mod error;
 mod irsim;
 mod map;
+mod planar;
 mod svg;
 mod yaml;
 

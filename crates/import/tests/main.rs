@@ -4,6 +4,7 @@
 mod cells;
 mod drawing;
 mod irsim;
+mod svg;
 
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::geometry::{Footprint, Point2};

@@ -1,22 +1,29 @@
-//! Refuses SVG files with unsupported elements or numbers, by line, before a drawing is read from them.
+//! Refuses SVG files with malformed or large numbers, or nested too deeply, by line, before a drawing is read.
 
-use usvg::roxmltree::{Document, Node};
+use roxmltree::{Document, Node};
 
+use super::lengths::number_and_unit;
 use crate::error::wrong_value;
 use crate::{ImportError, ImportProblem};
 
 pub(crate) const SVG: &str = "http://www.w3.org/2000/svg";
 
-/// Greatest depth of nested elements: readers of drawings recurse.
-pub(crate) const DEEPEST: usize = 200;
+/// Greatest depth of nested elements.
+pub(crate) const DEEPEST: usize = 1000;
 
 /// Largest number in a shape's attributes. The number of pieces of an arc or a circle grows with its radius.
-const LARGEST: f64 = 1e7;
+pub(crate) const LARGEST: f64 = 1e7;
+
+/// What the numbers of shapes must be.
+pub(crate) const SMALL_NUMBERS: &str = "finite numbers, at most 10000000 in size";
+
+/// The note on text.
+pub(crate) const TEXT_LEFT_OUT: &str = "text is left out";
 
 /// The attributes of shapes that are a length each.
 const LENGTHS: [&str; 13] = ["x", "y", "width", "height", "r", "rx", "ry", "cx", "cy", "x1", "y1", "x2", "y2"];
 
-/// Checks every element; returns notes on what will be left out.
+/// Checks the depth and the numbers of every element; returns notes on what will be left out.
 pub(crate) fn check(document: &Document) -> Result<Vec<String>, ImportError> {
     let mut notes = Vec::new();
     let (mut depth, mut last) = (0_usize, document.root());
@@ -36,100 +43,65 @@ pub(crate) fn check(document: &Document) -> Result<Vec<String>, ImportError> {
             continue;
         }
         match node.tag_name().name() {
-            name @ ("image" | "foreignObject" | "feImage") => {
-                return Err(at(node, ImportProblem::Unsupported(format!("{name}: draw it as shapes"))));
-            }
-            "text" => notes.push("text is left out".to_owned()),
+            "text" => notes.push(TEXT_LEFT_OUT.to_owned()),
             "marker" => notes.push("markers are left out".to_owned()),
             "rect" | "line" | "polyline" | "polygon" | "circle" | "ellipse" | "path" => check_numbers(node)?,
             _ => {}
-        }
-        for cut in ["clip-path", "mask"] {
-            if node.attribute(cut).is_some_and(|value| value != "none") {
-                return Err(at(node, ImportProblem::Unsupported(format!("{cut}: cut the shape itself"))));
-            }
         }
     }
     Ok(notes)
 }
 
-/// Checks the numbers in a shape's attributes. The reader would silently skip a malformed number, and the shape with
-/// it.
+/// Checks the signs that a shape's numbers are made of, and the size of its lengths. The numbers of paths and points
+/// are checked where they are read.
 fn check_numbers(node: Node) -> Result<(), ImportError> {
-    let refuse = |name: &str, value: &str| {
-        Err(at(node, wrong_value(format!("{name} = {value}"), "finite numbers, at most 10000000 in size")))
-    };
-    let is_number = |text: &str| text.parse::<f64>().is_ok_and(|x| x.abs() <= LARGEST);
+    let is_sign = |c: char| c.is_ascii_whitespace() || "+-.,0123456789eE".contains(c);
     for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
         let (name, value) = (attribute.name(), attribute.value().trim());
         let good = match name {
             "rx" | "ry" if value == "auto" => true,
-            length if LENGTHS.contains(&length) => {
-                is_number(value.trim_end_matches(|c: char| c.is_ascii_alphabetic() || c == '%'))
-            }
-            // numbers may follow one another without a blank, so only the signs that they are made of are checked
-            "d" => {
-                value.chars().all(|c| c.is_ascii_whitespace() || "+-.,0123456789eEMmZzLlHhVvCcSsQqTtAa".contains(c))
-                    && are_small(value)
-            }
-            "points" => {
-                value.chars().all(|c| c.is_ascii_whitespace() || "+-.,0123456789eE".contains(c)) && are_small(value)
-            }
+            length if LENGTHS.contains(&length) => number_and_unit(value).is_some_and(|(x, _)| x.abs() <= LARGEST),
+            "d" => value.chars().all(|c| is_sign(c) || "MmZzLlHhVvCcSsQqTtAa".contains(c)),
+            "points" => value.chars().all(is_sign),
             _ => true,
         };
         if !good {
-            return refuse(name, value);
+            return Err(at(node, wrong_value(format!("{name} = {value}"), SMALL_NUMBERS)));
         }
     }
     Ok(())
 }
 
-/// Whether every number in a text is small: the count of digits before its point plus its exponent is at most seven.
-/// The text is not split into numbers; any other sign starts the count again.
-fn are_small(text: &str) -> bool {
-    let bytes = text.as_bytes();
-    let (mut digits, mut is_fraction) = (0, false);
-    for (i, b) in bytes.iter().enumerate() {
-        match b {
-            b'0'..=b'9' => digits += usize::from(!is_fraction),
-            b'.' => is_fraction = true,
-            b'e' | b'E' => {
-                let exponent = bytes[i + 1..].strip_prefix(b"+").unwrap_or(&bytes[i + 1..]);
-                let up = exponent
-                    .iter()
-                    .take_while(|b| b.is_ascii_digit())
-                    .take(8)
-                    .fold(0, |n, b| 10 * n + usize::from(b - b'0'));
-                digits += up;
-                is_fraction = true;
-            }
-            _ => (digits, is_fraction) = (0, false),
-        }
-        if digits > 7 {
-            return false;
-        }
-    }
-    true
+/// The value of an attribute of SVG itself: one without a namespace.
+pub(crate) fn attribute<'a>(node: Node<'a, '_>, name: &str) -> Option<&'a str> {
+    node.attributes().find(|a| a.namespace().is_none() && a.name() == name).map(|a| a.value())
 }
 
 /// An error at an element: its line, its name and its id.
 pub(crate) fn at(node: Node, problem: ImportProblem) -> ImportError {
     let line = node.document().text_pos_at(node.range().start).row as usize;
-    let id = node.attribute("id").map_or(String::new(), |id| format!(" {id:?}"));
-    ImportError::at(line, format!("{}{id}", node.tag_name().name()), problem)
+    ImportError::at(line, name_and_id(node), problem)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::are_small;
+fn name_and_id(node: Node) -> String {
+    let id = attribute(node, "id").map_or(String::new(), |id| format!(" {id:?}"));
+    format!("{}{id}", node.tag_name().name())
+}
 
-    #[test]
-    fn the_digits_before_the_point_and_the_exponent_tell_the_size() {
-        for small in ["M1234567 0", "0.123456789e-300 .5.5-.25", "1e3,1E+3", "9999999-9999999", "1e-9999999", ""] {
-            assert!(are_small(small), "{small}");
-        }
-        for large in ["12345678", "0 0 1e9", "1E+8", "1.5e7", "h99999999.0", "1e99999999999999999999"] {
-            assert!(!are_small(large), "{large}");
-        }
+/// How notes call elements. The lines of a drawing are found once, for elements without an id.
+pub(crate) struct Labels {
+    line_ends: Vec<usize>,
+}
+
+impl Labels {
+    pub fn new(document: &Document) -> Self {
+        Labels { line_ends: document.input_text().match_indices('\n').map(|(i, _)| i).collect() }
+    }
+
+    /// `rect "table"`, or `the rect in line 3`.
+    pub fn of(&self, node: Node) -> String {
+        let line = 1 + self.line_ends.partition_point(|end| *end < node.range().start);
+        let name = name_and_id(node);
+        if attribute(node, "id").is_some() { name } else { format!("the {name} in line {line}") }
     }
 }

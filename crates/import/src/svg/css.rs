@@ -2,7 +2,8 @@
 
 use crate::ImportProblem;
 
-const PROPERTIES: [&str; 12] = [
+/// The properties that matter.
+pub(crate) const PROPERTIES: [&str; 20] = [
     "fill",
     "stroke",
     "fill-opacity",
@@ -14,71 +15,80 @@ const PROPERTIES: [&str; 12] = [
     "color",
     "transform",
     "transform-origin",
+    "transform-box",
     "font-size",
+    "fill-rule",
+    "clip-rule",
+    "clip-path",
+    "mask",
+    "overflow",
+    "stop-color",
+    "stop-opacity",
 ];
 
 /// Largest number of parts of a selector. The time to match one that names ancestors grows steeply with their number.
 const MAX_PARTS: usize = 3;
 
-/// A style sheet reduced to the properties that matter.
-pub(crate) struct StyleSheet {
-    pub text: String,
-    /// Number of its selectors.
-    pub selectors: usize,
+/// Greatest length of a value in a style sheet, bytes: a rule may hold for every element.
+const MAX_VALUE: usize = 200;
+
+/// A rule of a style sheet, with the properties that matter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct SheetRule {
+    /// Each as written.
+    pub selectors: Vec<String>,
+    pub declarations: Vec<StyleDeclaration>,
 }
 
-/// Returns the value of a property that matters; `None` for any other. Paint that refers to another element becomes
-/// black.
-///
-/// # Errors
-/// [`ImportProblem::Unsupported`] for a clip path or a mask.
-pub(crate) fn supported_value<'a>(name: &str, value: &'a str) -> Result<Option<&'a str>, ImportProblem> {
-    let value = value.trim();
-    match name {
-        "clip-path" | "mask" if value != "none" => {
-            let what = if name == "mask" { "a mask" } else { "a clip path" };
-            Err(ImportProblem::Unsupported(format!("{what}: cut the shapes themselves")))
-        }
-        "fill" | "stroke" if value.contains("url(") => Ok(Some("black")),
-        name if PROPERTIES.contains(&name) => Ok(Some(value)),
-        _ => Ok(None),
+/// A declaration of a property that matters.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct StyleDeclaration {
+    pub property: &'static str,
+    pub value: String,
+    pub important: bool,
+}
+
+impl StyleDeclaration {
+    /// The declaration; `None` if the property does not matter.
+    pub fn new(property: &str, value: &str) -> Option<Self> {
+        let property = *PROPERTIES.iter().find(|known| **known == property.trim())?;
+        let value = value.trim();
+        let (value, important) = match value.strip_suffix("important").map(str::trim_end) {
+            Some(before) if before.ends_with('!') => (before[..before.len() - 1].trim_end(), true),
+            _ => (value, false),
+        };
+        Some(StyleDeclaration { property, value: value.to_owned(), important })
     }
 }
 
 /// Returns the declarations of a `style` attribute that matter, each property once. The last one counts, unless only an
 /// earlier one is `!important`.
-///
-/// # Errors
-/// As [`supported_value`].
-pub(crate) fn declarations(style: &str) -> Result<String, ImportProblem> {
-    let mut last: [Option<&str>; PROPERTIES.len()] = [None; PROPERTIES.len()];
-    for declaration in style.split(';') {
-        let Some((name, value)) = declaration.split_once(':') else { continue };
-        let name = name.trim();
-        if let Some(value) = supported_value(name, value)?
-            && let Some(i) = PROPERTIES.iter().position(|p| *p == name)
-        {
-            let is_outranked = last[i].is_some_and(|last| is_important(last) && !is_important(value));
-            last[i] = if is_outranked { last[i] } else { Some(value) };
+pub(crate) fn declarations(style: &str) -> Vec<StyleDeclaration> {
+    let mut last: Vec<StyleDeclaration> = Vec::new();
+    let pairs = style.split(';').filter_map(|declaration| declaration.split_once(':'));
+    for new in pairs.filter_map(|(name, value)| StyleDeclaration::new(name, value)) {
+        match last.iter_mut().find(|old| old.property == new.property) {
+            Some(old) if old.important && !new.important => {}
+            Some(old) => *old = new,
+            None => last.push(new),
         }
     }
-    let all = PROPERTIES.iter().zip(last).filter_map(|(name, value)| Some([name, ":", value?, ";"].concat()));
-    Ok(all.collect())
+    last
 }
 
-fn is_important(value: &str) -> bool {
-    value.trim_end().ends_with("!important")
-}
-
-/// Returns the rules of a style sheet, each with the declarations that matter. Comments and rules that begin with `@`
-/// are left out.
+/// Returns the rules of a style sheet, each with the declarations that matter. Of rules that begin with `@`, those for
+/// screens are read and all others left out, as are comments.
 ///
 /// # Errors
-/// As [`supported_value`]; a selector of too many parts.
-pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
-    let plain = without_comments(text);
-    let mut sheet = StyleSheet { text: String::new(), selectors: 0 };
-    let mut rest = plain.as_str();
+/// [`ImportProblem::Unsupported`] for a selector of too many parts, and for a value that is too long.
+pub(crate) fn style_sheet(text: &str) -> Result<Vec<SheetRule>, ImportProblem> {
+    let mut sheet = Vec::new();
+    rules(&without_comments(text), true, &mut sheet)?;
+    Ok(sheet)
+}
+
+fn rules(text: &str, may_nest: bool, sheet: &mut Vec<SheetRule>) -> Result<(), ImportProblem> {
+    let mut rest = text;
     while let Some(open) = rest.find(['{', ';']) {
         let selector = rest[..open].trim();
         if rest.as_bytes()[open] == b';' {
@@ -87,26 +97,43 @@ pub(crate) fn style_sheet(text: &str) -> Result<StyleSheet, ImportProblem> {
             continue;
         }
         let close = block_end(&rest[open..]);
-        let block = rest[open..open + close].trim_matches(['{', '}']);
+        let block = &rest[open + 1..open + close];
+        let block = block.strip_suffix('}').unwrap_or(block);
         rest = &rest[open + close..];
-        if selector.starts_with('@') {
-            continue;
+        if !selector.starts_with('@') {
+            rule(selector, block, sheet)?;
+        } else if may_nest && is_for_screens(selector) {
+            rules(block, false, sheet)?;
         }
-        let kept = declarations(block)?;
-        if kept.is_empty() {
-            continue;
-        }
-        for one in selector.split(',') {
-            let parts = one.split([' ', '\t', '\n', '\r', '>', '+', '~']).filter(|part| !part.is_empty()).count();
-            if parts > MAX_PARTS {
-                let problem = format!("a selector of more than {MAX_PARTS} parts in a style sheet");
-                return Err(ImportProblem::Unsupported(problem));
-            }
-            sheet.selectors += 1;
-        }
-        sheet.text.extend([selector, "{", &kept, "}"]);
     }
-    Ok(sheet)
+    Ok(())
+}
+
+fn is_for_screens(at_rule: &str) -> bool {
+    let Some(media) = at_rule.strip_prefix("@media") else { return false };
+    media.split(',').any(|query| !query.contains("print") && !query.contains("not "))
+}
+
+fn rule(selector: &str, block: &str, sheet: &mut Vec<SheetRule>) -> Result<(), ImportProblem> {
+    let declared = declarations(block);
+    if declared.is_empty() {
+        return Ok(());
+    }
+    if let Some(long) = declared.iter().find(|declaration| declaration.value.len() > MAX_VALUE) {
+        let problem = format!("a `{}` of more than {MAX_VALUE} bytes in a style sheet", long.property);
+        return Err(ImportProblem::Unsupported(problem));
+    }
+    let mut selectors = Vec::new();
+    for one in selector.split(',') {
+        let parts = one.split([' ', '\t', '\n', '\r', '>', '+', '~']).filter(|part| !part.is_empty()).count();
+        if parts > MAX_PARTS {
+            let problem = format!("a selector of more than {MAX_PARTS} parts in a style sheet");
+            return Err(ImportProblem::Unsupported(problem));
+        }
+        selectors.push(one.trim().to_owned());
+    }
+    sheet.push(SheetRule { selectors, declarations: declared });
+    Ok(())
 }
 
 fn without_comments(text: &str) -> String {
@@ -116,7 +143,8 @@ fn without_comments(text: &str) -> String {
         plain.push_str(before);
         rest = comment.split_once("*/").map_or("", |(_, after)| after);
     }
-    plain + rest
+    // older files hide their style sheets from older readers
+    (plain + rest).replace("<!--", "").replace("-->", "")
 }
 
 /// Length of a block that begins with a brace, bytes, including the blocks in it.
@@ -139,27 +167,33 @@ fn block_end(text: &str) -> usize {
 mod tests {
     use super::*;
 
-    #[test]
-    fn what_decides_nothing_is_left_out() {
-        let style = "fill:red; filter:url(#f);fill : url(#g) none;marker-mid:url(#m); display:none;x";
-        assert_eq!(declarations(style).unwrap(), "fill:black;display:none;");
-        let sheet = "/* a{} */@import 'b';@media print { .c { fill: red } } .d, g > .e{stroke:none;filter:url(#f)} .f{";
-        let sheet = style_sheet(sheet).unwrap();
-        assert_eq!((sheet.text.as_str(), sheet.selectors), (".d, g > .e{stroke:none;}", 2));
-        assert_eq!(declarations("fill:none !important;fill:red").unwrap(), "fill:none !important;");
-        assert_eq!(declarations("fill:none;fill:red !important").unwrap(), "fill:red !important;");
+    fn texts(style: &str) -> Vec<String> {
+        let mark = |important: bool| if important { "!" } else { "" };
+        declarations(style).iter().map(|d| format!("{}:{}{}", d.property, d.value, mark(d.important))).collect()
+    }
+
+    fn selectors(sheet: &str) -> Vec<String> {
+        style_sheet(sheet).unwrap().into_iter().flat_map(|rule| rule.selectors).collect()
     }
 
     #[test]
-    fn cuts_and_long_selectors_are_refused() {
-        assert!(declarations("clip-path:none;mask:none").unwrap().is_empty());
-        for (style, what) in [("clip-path: url(#c)", "a clip path"), ("mask:url(#m)", "a mask")] {
-            let problem = declarations(style).unwrap_err().to_string();
-            assert_eq!(problem, format!("not supported: {what}: cut the shapes themselves"));
-            assert!(style_sheet(&format!(".a{{{style}}}")).is_err());
-        }
-        assert_eq!(style_sheet("g > .a b{fill:red}").unwrap().selectors, 1);
+    fn what_decides_nothing_is_left_out() {
+        let style = "fill:red; filter:url(#f);fill : url(#g) none;marker-mid:url(#m); display:none;x";
+        assert_eq!(texts(style), ["fill:url(#g) none", "display:none"]);
+        let sheet = "/* a{} */@import 'b';@media print { .c { fill: red } } .d, g > .e{stroke:none;filter:url(#f)} .f{";
+        assert_eq!(selectors(sheet), [".d", "g > .e"]);
+        let screens =
+            "<!-- @media screen and (x){.a{fill:none}@media all{.b{fill:none}}} @media print,all{.c{fill:red}} -->";
+        assert_eq!(selectors(screens), [".a", ".c"]);
+        assert!(style_sheet(&format!(".a{{transform:{}}}", "x".repeat(201))).is_err());
+        assert_eq!(texts("fill:none !important;fill:red"), ["fill:none!"]);
+        assert_eq!(texts("fill:none;fill:red ! important"), ["fill:red!"]);
+    }
+
+    #[test]
+    fn long_selectors_are_refused() {
+        assert_eq!(selectors("g > .a b{fill:red}"), ["g > .a b"]);
         assert!(style_sheet("g > .a b *{fill:red}").is_err());
-        assert_eq!(style_sheet("g > .a b text{font-weight:bold}").unwrap().selectors, 0);
+        assert!(selectors("g > .a b text{font-weight:bold}").is_empty());
     }
 }

@@ -24,8 +24,8 @@ use crate::cli::{Data, Failure, Outcome, say};
 ///
 /// A ROS map is given by its yaml file; its image must be a PGM. In a MovingAI map . G S are free, @ O T W occupied. Of
 /// either the occupied cells become solid boxes. In an SVG drawing what is filled becomes a solid obstacle and what is
-/// only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are read, and its robots as Rusty
-/// (diff) and Hitch (acker).
+/// only stroked a wall, called by their ids; it has its physical size, if it says one. Of an IR-SIM world the static
+/// obstacles are read, and its robots as Rusty (diff) and Hitch (acker).
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -60,9 +60,10 @@ pub struct Import {
     /// The size of a MovingAI map's cells, metres.
     #[arg(long, value_name = "METRES", default_value_t = 1.0)]
     metres_per_cell: f64,
-    /// The length of an SVG drawing's unit, metres.
-    #[arg(long, value_name = "METRES", default_value_t = 1.0)]
-    metres_per_unit: f64,
+    /// The length of an SVG drawing's own unit, that of its viewBox, metres. [default: by the drawing's physical size;
+    /// without one, 1 m for a pixel of its width and height]
+    #[arg(long, value_name = "METRES")]
+    metres_per_unit: Option<f64>,
     /// How far the straight pieces of an SVG drawing's curves may be from them, metres.
     #[arg(long, value_name = "METRES", default_value_t = SvgOptions::default().tolerance)]
     tolerance: f64,
