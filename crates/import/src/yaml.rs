@@ -1,7 +1,7 @@
 //! Parses YAML into a tree in which every part knows its line. Anchors, aliases and tags are refused: maps and scenes
 //! have none, and without them the tree is no larger than the file.
 
-use saphyr_parser::{Event, Parser, ScalarStyle};
+use saphyr_parser::{Event, Parser};
 
 use super::error::wrong_value;
 use super::{ImportError, ImportProblem};
@@ -28,11 +28,8 @@ pub(super) struct YamlNode {
 
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum YamlValue {
-    /// A text. If `quoted`, it stood in quotes and is not a number.
-    Scalar {
-        text: String,
-        quoted: bool,
-    },
+    /// A text, without its quotes.
+    Scalar(String),
     List(Vec<YamlNode>),
     /// Keys with their lines, no two of them equal.
     Mapping(Vec<(String, usize, YamlNode)>),
@@ -68,10 +65,7 @@ pub(super) fn read(text: &str) -> Result<YamlNode, ImportError> {
             Event::Scalar(_, _, _, Some(_)) | Event::SequenceStart(_, Some(_)) | Event::MappingStart(_, Some(_)) => {
                 return Err(unsupported(line, "tags"));
             }
-            Event::Scalar(text, style, ..) => Some(YamlNode {
-                line,
-                value: YamlValue::Scalar { text: text.into(), quoted: style != ScalarStyle::Plain },
-            }),
+            Event::Scalar(text, ..) => Some(YamlNode { line, value: YamlValue::Scalar(text.into()) }),
             Event::SequenceStart(..) | Event::MappingStart(..) if open.len() == DEEPEST => {
                 return Err(syntax(line, "nested too deeply"));
             }
@@ -113,10 +107,10 @@ fn key_of(node: YamlNode, before: &[(String, usize, YamlNode)]) -> Result<(Strin
         _ if before.len() == MAX_KEYS => {
             Err(unsupported(node.line, &format!("more than {MAX_KEYS} keys of one mapping")))
         }
-        YamlValue::Scalar { text, .. } if before.iter().any(|(key, ..)| *key == text) => {
+        YamlValue::Scalar(text) if before.iter().any(|(key, ..)| *key == text) => {
             Err(ImportError::at(node.line, text, ImportProblem::Syntax("the key stands there twice".into())))
         }
-        YamlValue::Scalar { text, .. } => Ok((text, node.line)),
+        YamlValue::Scalar(text) => Ok((text, node.line)),
         _ => Err(syntax(node.line, "a key must be a word")),
     }
 }
@@ -130,11 +124,11 @@ fn unsupported(line: usize, what: &str) -> ImportError {
 }
 
 impl YamlNode {
-    /// Reads the node as a number. Errors name it `item`.
+    /// Reads the node as a number, which may stand in quotes. Errors name it `item`.
     pub fn number(&self, item: &str) -> Result<f64, ImportError> {
         let expected = "a finite number";
         match &self.value {
-            YamlValue::Scalar { text, quoted: false } => match text.parse::<f64>() {
+            YamlValue::Scalar(text) => match text.trim().parse::<f64>() {
                 Ok(x) if x.is_finite() => Ok(x),
                 _ => Err(ImportError::at(self.line, item, wrong_value(text, expected))),
             },
@@ -142,10 +136,23 @@ impl YamlNode {
         }
     }
 
+    /// Reads the node as yes or no, by the words of YAML 1.1: in small letters, in capitals or with one capital. Errors
+    /// name it `item`.
+    pub fn boolean(&self, item: &str) -> Result<bool, ImportError> {
+        let text = self.text(item)?;
+        let (small, large) = (text.to_ascii_lowercase(), text.to_ascii_uppercase());
+        let is_flexible = text == small || text == large || text.get(1..) == small.get(1..);
+        match small.as_str() {
+            "true" | "yes" | "on" | "y" if is_flexible => Ok(true),
+            "false" | "no" | "off" | "n" if is_flexible => Ok(false),
+            _ => Err(self.wrong(item, "True or False")),
+        }
+    }
+
     /// Reads the node as a text. Errors name it `item`.
     pub fn text(&self, item: &str) -> Result<&str, ImportError> {
         match &self.value {
-            YamlValue::Scalar { text, .. } if !text.is_empty() => Ok(text),
+            YamlValue::Scalar(text) if !text.is_empty() => Ok(text),
             _ => Err(self.wrong(item, "a text")),
         }
     }
@@ -186,7 +193,7 @@ impl YamlNode {
     /// The error that `item` is not what is expected.
     pub fn wrong(&self, item: &str, expected: &'static str) -> ImportError {
         let found = match &self.value {
-            YamlValue::Scalar { text, .. } => text.clone(),
+            YamlValue::Scalar(text) => text.clone(),
             YamlValue::List(_) => "a list".into(),
             YamlValue::Mapping(_) => "keys with values".into(),
         };
@@ -212,6 +219,11 @@ impl<'a> Fields<'a> {
     /// Takes the value of a key that must be there.
     pub fn need(&mut self, key: &'static str) -> Result<&'a YamlNode, ImportError> {
         self.take(key).ok_or_else(|| ImportError::at(self.line, &self.item, ImportProblem::Missing(key)))
+    }
+
+    /// The remaining keys, with their lines.
+    pub fn others(&self) -> impl Iterator<Item = (&'a str, usize)> {
+        self.left.iter().map(|(key, line, _)| (key.as_str(), *line))
     }
 
     /// Takes one of the remaining keys, with its line.
@@ -281,11 +293,29 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_finite_and_unquoted() {
-        for bad in [".nan", ".inf", "nan", "inf", "-infinity", "1e999", "0x10", "'1'", "one", "", "[1]"] {
+    fn numbers_are_finite_and_may_stand_in_quotes() {
+        for bad in [".nan", ".inf", "nan", "inf", "-infinity", "1e999", "0x10", "'1m'", "one", "", "[1]"] {
             let tree = read(&format!("a: {bad}")).unwrap();
             let number = tree.fields("").unwrap().need("a").unwrap().number("a");
             assert!(number.unwrap_err().to_string().contains("it must be a finite number"), "{bad}");
+        }
+        for good in ["0.5", "'0.5'", "\"0.5\"", "+.5", "5e-1", "5.0E-01", "' 0.5 '"] {
+            let tree = read(&format!("a: {good}")).unwrap();
+            assert_eq!(tree.fields("").unwrap().need("a").unwrap().number("a"), Ok(0.5), "{good}");
+        }
+    }
+
+    #[test]
+    fn yes_and_no_have_the_words_of_yaml() {
+        let boolean =
+            |text: &str| read(&format!("a: {text}")).unwrap().fields("").unwrap().need("a").unwrap().boolean("a");
+        for (yes, no) in
+            [("true", "false"), ("True", "False"), ("TRUE", "'FALSE'"), ("yes", "no"), ("On", "OFF"), ("Y", "n")]
+        {
+            assert_eq!((boolean(yes), boolean(no)), (Ok(true), Ok(false)), "{yes} {no}");
+        }
+        for neither in ["tRUE", "nO", "1", "maybe", "''", "[true]"] {
+            assert!(boolean(neither).is_err(), "{neither}");
         }
     }
 }

@@ -84,6 +84,42 @@ fn a_robot_in_a_wall_is_reported() {
 }
 
 #[test]
+fn a_map_far_out_lies_where_it_is_shifted_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let head = "image: x.ppm\nresolution: 0.5\norigin: [431000, 4582000, 0]\nnegate: no\nmode: Trinary\n";
+    fs::write(folder.path().join("far.yaml"), head).unwrap();
+    // cells of 0, 255 and 205
+    fs::write(folder.path().join("x.ppm"), "P3 3 1 255  0 0 0  255 255 255  205 205 205").unwrap();
+    let imported =
+        |more: &[&str]| run_in(folder.path(), &[&["world", "import", "far.yaml", "--unknown", "free"], more].concat());
+    let output = imported(&[]);
+    let note = "lower left corner, (431000, 4582000), is the world's origin";
+    assert!(output.err.contains(note), "{}", output.err);
+    assert!(output.done().contains("shape: Box(min: (0.0, 0.0), max: (0.5, 0.5))"));
+    let output = imported(&["--shift", "-430990,-4582001.5"]);
+    assert!(!output.err.contains("corner"), "{}", output.err);
+    assert!(output.done().contains("shape: Box(min: (10.0, -1.5), max: (10.5, -1.0))"));
+    assert!(imported(&["--shift", "1"]).failed(2).contains("--shift takes two numbers"));
+    let other = run(&["world", "import", &sample("yard.map"), "--shift", "1,2"]).failed(2);
+    assert!(other.contains("only ROS maps"), "{other}");
+}
+
+#[test]
+fn a_scenario_brings_its_map_and_its_problems() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy(sample("yard.map"), folder.path().join("yard.map")).unwrap();
+    let line = "0\tbenchmarks/yard.map\t10\t6\t1\t1\t8\t4\t8.2\n";
+    fs::write(folder.path().join("yard.map.scen"), format!("version 1\n{line}")).unwrap();
+    let world = run_in(folder.path(), &["world", "import", "yard.map.scen"]).done();
+    assert!(world.contains("name: \"yard\""), "{world}");
+    assert!(world.contains("(name: \"start 1\", pose: (x: 1.5, y: 4.5, theta: 0.0))"), "{world}");
+    assert!(world.contains("(name: \"goal 1\", pose: (x: 8.5, y: 1.5, theta: 0.0))"), "{world}");
+    fs::remove_file(folder.path().join("yard.map")).unwrap();
+    let error = run_in(folder.path(), &["world", "import", "yard.map.scen"]).failed(3);
+    assert!(error.contains("yard.map: there is no such file"), "{error}");
+}
+
+#[test]
 fn imports_that_cannot_be_say_why() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("lost.yaml"), "image: nowhere.pgm\nresolution: 1\norigin: [0, 0, 0]\n").unwrap();
