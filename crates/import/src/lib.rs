@@ -21,6 +21,7 @@ mod yaml;
 use motion_lab_core::worlds::{Resident, World, WorldProblem};
 
 pub use error::{ImportError, ImportProblem};
+pub use irsim::context::IrsimOptions;
 pub use irsim::scene::irsim;
 pub use map::cells::{CellStyle, OccupancyMap};
 pub use map::movingai::movingai;

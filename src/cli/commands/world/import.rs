@@ -10,7 +10,8 @@ use motion_lab::run::Recipe;
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 use motion_lab::worlds::import::{
-    CellStyle, ImportError, Imported, RosMap, Scenario, SvgOptions, Unknown, irsim, is_ros_map, movingai, svg,
+    CellStyle, ImportError, Imported, IrsimOptions, RosMap, Scenario, SvgOptions, Unknown, irsim, is_ros_map, movingai,
+    svg,
 };
 
 use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, is_dash, read_bytes, read_text_of};
@@ -26,7 +27,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// T W occupied. Of either the occupied cells become solid boxes. Of a MovingAI scenario (.scen) the map is read, and
 /// its problems become the places `start 1`, `goal 1`, `start 2` and so on. In an SVG drawing what is filled becomes a
 /// solid obstacle and what is only stroked a wall, called by their ids. Of an IR-SIM world the static obstacles are
-/// read, and its robots as Rusty (diff) and Hitch (acker).
+/// read, and its robots with their sizes and lidars as Rusty (diff) and Hitch (acker).
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -63,6 +64,12 @@ pub struct Import {
     /// Move a ROS map by this, metres. [default: none; a map that reaches beyond 10 km has its own corner as origin]
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     shift: Option<NumberList>,
+    /// Leave out what the lab does not have of an IR-SIM world, such as obstacles that move, and say so.
+    #[arg(long)]
+    lenient: bool,
+    /// The seed of what an IR-SIM world leaves to chance.
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    seed: u64,
     /// The size of a MovingAI map's cells, metres.
     #[arg(long, value_name = "METRES", default_value_t = 1.0)]
     metres_per_cell: f64,
@@ -135,7 +142,10 @@ impl Import {
             ImportFormat::Ros => self.ros(&file, &text, &name),
             ImportFormat::Movingai => self.movingai(&file, &text, &name),
             ImportFormat::Scen => self.scenario(&file, &text, &name),
-            ImportFormat::Irsim => irsim(&file, &text, &name).map_err(refused),
+            ImportFormat::Irsim => {
+                let options = IrsimOptions { is_lenient: self.lenient, seed: Seed(self.seed) };
+                irsim(&file, &text, &name, options).map_err(refused)
+            }
             ImportFormat::Svg => {
                 let options = SvgOptions { metres_per_unit: self.metres_per_unit, tolerance: self.tolerance };
                 svg(&file, &text, &name, options).map_err(refused)
