@@ -54,6 +54,7 @@ fn heads_may_lack_the_type_and_have_tabs_and_another_order() {
         ("height 6\nwidth 10", "width\t10\nheight\t6"),
         ("type octile\nheight 6", "\n  height   6\n type\toctile"),
         ("\n", "\r\n"),
+        ("\n", "\r"),
     ] {
         let text = sample("yard.map");
         assert!(text.contains(from), "{from}");
@@ -119,6 +120,7 @@ fn scenarios_are_read_in_their_several_forms_and_refused_by_line() {
             Scenario { problems: vec![], ..plain.clone() }
         );
     }
+    assert_eq!(Scenario::parse("s.scen", &PROBLEMS.replace('\n', "\r")).unwrap(), plain);
     let blanks = Scenario::parse("s.scen", &PROBLEMS.replace('\t', " ").replace('\n', "\r\n")).unwrap();
     assert_eq!(blanks, plain);
     let refused = |from: &str, to: &str| read(from, to).unwrap_err().to_string();

@@ -40,6 +40,27 @@ fn a_world_of_ir_sim_brings_its_robots() {
 }
 
 #[test]
+fn what_an_ir_sim_world_has_beyond_the_lab_is_left_out_if_asked_and_chance_has_a_seed() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "world: {height: 50, width: 50}\nobstacle:\n  - number: 10\n    distribution: {name: random}\n    \
+                shape: {name: circle, radius: 0.4}\n  - kinematics: {name: omni}\n    state: [5, 5, 0]\n";
+    fs::write(folder.path().join("yard.yaml"), text).unwrap();
+    let import = |more: &[&str]| run_in(folder.path(), &[&["world", "import", "yard.yaml"], more].concat());
+    let refused = import(&[]).failed(3);
+    assert!(
+        refused.contains("yard.yaml:6: obstacle[1].kinematics: not supported: an obstacle that moves"),
+        "{refused}"
+    );
+    let output = import(&["--lenient"]);
+    let note = "obstacle[1] is left out: obstacle[1].kinematics: an obstacle that moves";
+    assert!(output.err.contains(note) && output.err.contains("10 objects are drawn with seed 0"), "{}", output.err);
+    let world = output.done();
+    assert_eq!(world.matches("Disc").count(), 10, "{world}");
+    assert_eq!(import(&["--lenient", "--seed", "0"]).done(), world);
+    assert_ne!(import(&["--lenient", "--seed", "1"]).done(), world);
+}
+
+#[test]
 fn an_exported_map_is_imported_again_and_a_picture_is_one() {
     let folder = tempfile::tempdir().unwrap();
     let output = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);

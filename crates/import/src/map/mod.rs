@@ -3,6 +3,7 @@
 pub(crate) mod cells;
 pub(crate) mod gray_image;
 pub(crate) mod image;
+pub(crate) mod lines;
 pub(crate) mod movingai;
 pub(crate) mod png_image;
 pub(crate) mod pnm;

@@ -1,6 +1,7 @@
 //! Reads the maps of the MovingAI benchmarks.
 
 use super::cells::{check_size, grid_of};
+use super::lines::numbered_lines;
 use crate::error::wrong_value;
 use crate::{ImportError, ImportProblem, OccupancyMap};
 use motion_lab_core::geometry::{Point2, Pose2};
@@ -25,7 +26,7 @@ pub fn movingai(file: &str, text: &str, resolution: f64) -> Result<OccupancyMap,
 }
 
 fn read(text: &str, resolution: f64) -> Result<OccupancyMap, ImportError> {
-    let mut lines = (1..).zip(text.lines().map(str::trim_end));
+    let mut lines = numbered_lines(text);
     let MapSize { columns, rows } = head(&mut lines)?;
     check_size(columns, rows)?;
     let grid = grid_of(Point2::origin(), resolution, columns, rows, || cells(lines, columns, rows))?;

@@ -1,5 +1,6 @@
 //! `Scenario`, the problems of the MovingAI benchmarks: a start and a goal each, on a map of cells.
 
+use super::lines::numbered_lines;
 use crate::error::wrong_value;
 use crate::{ImportError, ImportProblem, Imported};
 use motion_lab_core::geometry::Pose2;
@@ -104,7 +105,7 @@ fn put_place(world: &mut World, name: String, pose: Pose2) -> Result<(), WorldPr
 
 fn read(text: &str) -> Result<Scenario, ImportError> {
     let mut scenario: Option<Scenario> = None;
-    let mut lines = (1..).zip(text.lines()).filter(|(_, text)| !text.trim().is_empty()).peekable();
+    let mut lines = numbered_lines(text).filter(|(_, text)| !text.trim().is_empty()).peekable();
     if let Some((line, text)) = lines.next_if(|(_, text)| text.trim_start().starts_with("version")) {
         let version = text.trim().trim_start_matches("version").trim();
         if version.parse() != Ok(1.0) {
