@@ -55,6 +55,8 @@ mod tests {
         }
         // 5/9 of 65535 is 36408.33, and 141 * 257 = 36237, 142 * 257 = 36494
         assert_eq!((sixteen_bits(5, 9), shade([sixteen_bits(5, 9); 3])), (36408, 141));
+        // 4/9 of it is 29126.67
+        assert_eq!(sixteen_bits(4, 9), 29127);
         assert_eq!((sixteen_bits(9, 9), sixteen_bits(1, 65535)), (65535, 1));
     }
 

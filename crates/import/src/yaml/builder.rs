@@ -258,6 +258,9 @@ mod tests {
             text += &format!("a{i}: &a{i} [{}]\n", [before.as_str(); 9].join(", "));
         }
         assert!(refusal(&text).contains("not supported: more than 200000 values"), "{}", refusal(&text));
+        // copies that have no anchor of their own count, too
+        let wide = format!("a: &a [{}]\nb: [{}]\n", ["x"; 100].join(", "), ["*a"; 2100].join(", "));
+        assert!(refusal(&wide).contains("not supported: more than 200000 values"));
         let long = format!("a: &a {}\nb: [{}]\n", "x".repeat(50_000), ["*a"; 100].join(", "));
         assert!(refusal(&long).contains("not supported: aliases that copy more than 1048576 bytes"));
         let deep = format!("a: &a {}{}\nb: {}*a{}\n", "[".repeat(20), "]".repeat(20), "[".repeat(20), "]".repeat(20));
