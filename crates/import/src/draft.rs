@@ -1,7 +1,8 @@
 //! `WorldDraft`, a world under construction, with notes for its reader.
 
 use super::Imported;
-use motion_lab_core::worlds::{Resident, WorldBuilder, WorldProblem, Xy};
+use motion_lab_core::configuration::Sizes;
+use motion_lab_core::worlds::{Resident, ResidentSensor, WorldBuilder, WorldProblem, Xy};
 
 /// Largest number of notes kept.
 const MAX_NOTES: usize = 100;
@@ -13,11 +14,25 @@ pub struct WorldDraft {
     notes: Vec<String>,
 }
 
+/// A robot that is to be added.
+pub struct DraftRobot<'a> {
+    pub kind: &'a str,
+    /// Its chart coordinates.
+    pub start: Vec<f64>,
+    /// What it is like; `None` for its kind's own.
+    pub sizes: Option<Sizes>,
+    pub sensors: &'a [ResidentSensor],
+}
+
 impl WorldDraft {
-    /// Adds a robot, named after its kind.
-    pub fn robot(&mut self, kind: &str, start: Vec<f64>) -> Result<(), WorldProblem> {
-        let name = self.world.claim(&capitalised(kind));
-        self.world.robot(Resident::try_new(name, kind, start, None)?)
+    /// Adds a robot under this name, else named after its kind.
+    pub fn robot(&mut self, name: Option<&str>, robot: DraftRobot) -> Result<(), WorldProblem> {
+        let name = self.world.claim(&name.map_or_else(|| capitalised(robot.kind), str::to_owned));
+        let mut resident = Resident::try_new(name, robot.kind, robot.start, None)?.try_with_sensors(robot.sensors)?;
+        if let Some(sizes) = robot.sizes {
+            resident = resident.try_with_sizes(sizes)?;
+        }
+        self.world.robot(resident)
     }
 
     /// Adds a note, unless it is there already or there are too many.

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | a ROS map, [`RosMap`] | boxes over its occupied cells, or on request closed walls along their borders |
 //! | a MovingAI map, [`movingai`] | the same |
+//! | a MovingAI scenario, [`Scenario`] | places in the world of its map |
 //! | an IR-SIM world, [`irsim()`] | circles, boxes, polygons, walls and robots |
 //! | an SVG drawing, [`svg()`] | filled shapes as solid obstacles, shapes that are only stroked as walls |
 //!
@@ -21,10 +22,12 @@ mod yaml;
 use motion_lab_core::worlds::{Resident, World, WorldProblem};
 
 pub use error::{ImportError, ImportProblem};
+pub use irsim::context::IrsimOptions;
 pub use irsim::scene::irsim;
 pub use map::cells::{CellStyle, OccupancyMap};
 pub use map::movingai::movingai;
-pub use map::ros::{RosMap, Unknown, is_ros_map};
+pub use map::ros::{RosMap, RosMode, Unknown, is_ros_map};
+pub use map::scenario::{MapCell, Scenario, ScenarioProblem};
 pub use svg::read::{SvgOptions, svg};
 
 use draft::WorldDraft;

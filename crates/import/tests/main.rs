@@ -3,7 +3,9 @@
 
 mod cells;
 mod drawing;
+mod images;
 mod irsim;
+mod movingai;
 mod svg;
 
 use motion_lab_core::collision::{Collision, Scene};

@@ -40,6 +40,27 @@ fn a_world_of_ir_sim_brings_its_robots() {
 }
 
 #[test]
+fn what_an_ir_sim_world_has_beyond_the_lab_is_left_out_if_asked_and_chance_has_a_seed() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "world: {height: 50, width: 50}\nobstacle:\n  - number: 10\n    distribution: {name: random}\n    \
+                shape: {name: circle, radius: 0.4}\n  - kinematics: {name: omni}\n    state: [5, 5, 0]\n";
+    fs::write(folder.path().join("yard.yaml"), text).unwrap();
+    let import = |more: &[&str]| run_in(folder.path(), &[&["world", "import", "yard.yaml"], more].concat());
+    let refused = import(&[]).failed(3);
+    assert!(
+        refused.contains("yard.yaml:6: obstacle[1].kinematics: not supported: an obstacle that moves"),
+        "{refused}"
+    );
+    let output = import(&["--lenient"]);
+    let note = "obstacle[1] is left out: obstacle[1].kinematics: an obstacle that moves";
+    assert!(output.err.contains(note) && output.err.contains("10 objects are drawn with seed 0"), "{}", output.err);
+    let world = output.done();
+    assert_eq!(world.matches("Disc").count(), 10, "{world}");
+    assert_eq!(import(&["--lenient", "--seed", "0"]).done(), world);
+    assert_ne!(import(&["--lenient", "--seed", "1"]).done(), world);
+}
+
+#[test]
 fn an_exported_map_is_imported_again_and_a_picture_is_one() {
     let folder = tempfile::tempdir().unwrap();
     let output = run_in(folder.path(), &["world", "export", "lot", "--resolution", "0.25", "-o", "lot.yaml"]);
@@ -81,6 +102,42 @@ fn a_robot_in_a_wall_is_reported() {
     let output = run_in(folder.path(), &[&inside[..], &["--hollow"]].concat());
     assert!(!output.err.contains("contact"), "{}", output.err);
     output.done();
+}
+
+#[test]
+fn a_map_far_out_lies_where_it_is_shifted_to() {
+    let folder = tempfile::tempdir().unwrap();
+    let head = "image: x.ppm\nresolution: 0.5\norigin: [431000, 4582000, 0]\nnegate: no\nmode: Trinary\n";
+    fs::write(folder.path().join("far.yaml"), head).unwrap();
+    // cells of 0, 255 and 205
+    fs::write(folder.path().join("x.ppm"), "P3 3 1 255  0 0 0  255 255 255  205 205 205").unwrap();
+    let imported =
+        |more: &[&str]| run_in(folder.path(), &[&["world", "import", "far.yaml", "--unknown", "free"], more].concat());
+    let output = imported(&[]);
+    let note = "lower left corner, (431000, 4582000), is the world's origin";
+    assert!(output.err.contains(note), "{}", output.err);
+    assert!(output.done().contains("shape: Box(min: (0.0, 0.0), max: (0.5, 0.5))"));
+    let output = imported(&["--shift", "-430990,-4582001.5"]);
+    assert!(!output.err.contains("corner"), "{}", output.err);
+    assert!(output.done().contains("shape: Box(min: (10.0, -1.5), max: (10.5, -1.0))"));
+    assert!(imported(&["--shift", "1"]).failed(2).contains("--shift takes two numbers"));
+    let other = run(&["world", "import", &sample("yard.map"), "--shift", "1,2"]).failed(2);
+    assert!(other.contains("only ROS maps"), "{other}");
+}
+
+#[test]
+fn a_scenario_brings_its_map_and_its_problems() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::copy(sample("yard.map"), folder.path().join("yard.map")).unwrap();
+    let line = "0\tbenchmarks/yard.map\t10\t6\t1\t1\t8\t4\t8.2\n";
+    fs::write(folder.path().join("yard.map.scen"), format!("version 1\n{line}")).unwrap();
+    let world = run_in(folder.path(), &["world", "import", "yard.map.scen"]).done();
+    assert!(world.contains("name: \"yard\""), "{world}");
+    assert!(world.contains("(name: \"start 1\", pose: (x: 1.5, y: 4.5, theta: 0.0))"), "{world}");
+    assert!(world.contains("(name: \"goal 1\", pose: (x: 8.5, y: 1.5, theta: 0.0))"), "{world}");
+    fs::remove_file(folder.path().join("yard.map")).unwrap();
+    let error = run_in(folder.path(), &["world", "import", "yard.map.scen"]).failed(3);
+    assert!(error.contains("yard.map: there is no such file"), "{error}");
 }
 
 #[test]

@@ -53,6 +53,26 @@ fn a_script_is_printed_from_a_file_and_from_a_log() {
 }
 
 #[test]
+fn a_table_of_a_spreadsheet_is_converted_and_one_without_events_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    for table in [
+        "tick,robot,input,values\r4,Rusty,Drive,128,-3\r9,Hitch,Release\r",
+        "\u{feff}tick;robot;input;values\r\n4,0;Rusty;Drive;128,0;-3;\r\n9;Hitch;Release;;\r\n",
+    ] {
+        fs::write(folder.path().join("drive.csv"), table).unwrap();
+        let output = run_in(folder.path(), &["script", "convert", "drive.csv"]);
+        assert_eq!(output.err, "");
+        assert_eq!(output.done(), CANONICAL);
+    }
+    for empty in ["", "tick,robot,input\r", "# 1,Rusty,Release\n;;;\n"] {
+        fs::write(folder.path().join("drive.csv"), empty).unwrap();
+        let output = run_in(folder.path(), &["script", "convert", "drive.csv"]);
+        assert!(output.err.contains("drive.csv: no events: the script is empty"), "{}", output.err);
+        output.done();
+    }
+}
+
+#[test]
 fn a_table_is_converted_and_drives_the_same_run() {
     let folder = tempfile::tempdir().unwrap();
     let table = "tick,robot,input,first,second\n4,Rusty,Drive,128,-3\n9,Hitch,Release,,\n";

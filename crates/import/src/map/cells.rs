@@ -38,11 +38,11 @@ pub struct OccupancyMap {
 
 impl OccupancyMap {
     /// Creates a world in which the occupied cells are obstacles. Its bounds enclose the map, and every edge of an
-    /// obstacle lies on borders of cells.
+    /// obstacle lies on borders of cells. Without an occupied cell it is empty, with a note.
     ///
     /// # Errors
-    /// [`ImportError`] if there are too many edges or boxes for a world, coordinates are too large, cells are smaller
-    /// than [`MIN_FEATURE`], or no cell is occupied. `file` is the map's name in errors.
+    /// [`ImportError`] if there are too many edges or boxes for a world, coordinates are too large, or cells are
+    /// smaller than [`MIN_FEATURE`]. `file` is the map's name in errors.
     pub fn world(&self, file: &str, name: &str, style: CellStyle) -> Result<Imported, ImportError> {
         let mut draft = WorldDraft::default();
         self.notes.iter().for_each(|note| draft.note(note));
@@ -52,13 +52,12 @@ impl OccupancyMap {
         };
         let imported = obstacles.and_then(|()| {
             let (min, max) = self.bounds();
-            if draft.world.is_empty() { Ok(None) } else { draft.finish(name, min, max).map(Some) }
+            if draft.world.is_empty() {
+                draft.note("no cell of the map is an obstacle");
+            }
+            draft.finish(name, min, max)
         });
-        match imported {
-            Ok(Some(imported)) => Ok(imported),
-            Ok(None) => Err(ImportError::at(0, "", ImportProblem::Nothing).of(file)),
-            Err(problem) => Err(ImportError::at(0, "", problem).of(file)),
-        }
+        imported.map_err(|problem| ImportError::at(0, "", problem).of(file))
     }
 
     fn walls(&self, draft: &mut WorldDraft) -> Result<(), WorldProblem> {

@@ -82,7 +82,8 @@ Examples:
     /// A row is `tick,robot,input` and the input's values: `1,Rusty,Drive,64,-20` (parts in 128 of the maximum),
     /// `5,Reach,MoveTo,0.785,1.571` and `7,Rusty,Teleport,2.25,6.25,0` (metres and radians, rounded to 2^-20),
     /// `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a heading;
-    /// empty rows and rows that begin with # are left out.
+    /// empty rows and rows that begin with # are left out. Semicolons or tabs may stand between the values, numbers may
+    /// then have decimal commas; whole numbers may end in `.0`, `on` may be `TRUE`. Any line ends will do.
     #[command(after_help = "\
 Examples:
   motion-lab script convert drive.csv -o drive.ron")]
@@ -129,6 +130,9 @@ impl ScriptArgs {
                         "Correct it there; `motion-lab script convert --help` tells the form.",
                     )
                 })?;
+                if script.events.is_empty() {
+                    say(format!("{}: no events: the script is empty", file.display()));
+                }
                 write_text(output.as_deref(), &script.to_ron(), data)?;
                 Ok(Outcome::Done)
             }

@@ -18,8 +18,24 @@ pub struct ScriptTableError {
 /// The largest number of cells in a row; empty ones at its end count, too.
 const MAX_CELLS: usize = 1000;
 
+/// The signs that end a row; a carriage return may have a line feed behind it. Spreadsheets of old Macs write the
+/// former alone.
+const ROW_ENDS: [char; 5] = ['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}'];
+
+/// The signs that may stand between cells.
+const SEPARATORS: [char; 3] = [',', ';', '\t'];
+
 /// A cell and the column where it begins, from 1.
 type TableCell = (usize, String);
+
+/// How a table is written, as its first row shows.
+#[derive(Clone, Copy)]
+struct TableForm {
+    /// The sign between cells. If it is no comma, a comma may stand for a decimal point.
+    separator: char,
+    /// The cells of each row that come before the tick: a data frame's index, where the heading shows one.
+    index: usize,
+}
 
 /// The script that a table describes, checked against a run's worlds and robots where they are given.
 pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptTableError> {
@@ -27,16 +43,29 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptT
     // of each event the line, and the columns of its tick, its robot, its input and that input's first value
     let mut rows: Vec<(usize, [usize; 4])> = Vec::new();
     let text = text.trim_start_matches('\u{feff}'); // spreadsheets put a mark in front
-    for (line, row) in (1..).zip(text.lines()) {
-        if row.trim().is_empty() || row.starts_with('#') {
+    let mut form: Option<TableForm> = None;
+    for (line, row) in (1..).zip(rows_of(text)) {
+        if row.trim().is_empty() || row.trim_start_matches('"').starts_with('#') {
+            continue;
+        }
+        if form.is_none() && row.trim().trim_matches('"').to_ascii_lowercase().starts_with("sep=") {
+            form = row.trim().trim_matches('"').chars().nth(4).map(|separator| TableForm { separator, index: 0 });
             continue;
         }
         let at = |(column, reason): (usize, String)| ScriptTableError { line, column, reason };
-        let cells = cells(row).map_err(at)?;
-        if rows.is_empty() && script.events.is_empty() && cells[0].1.eq_ignore_ascii_case("tick") {
+        let used = *form.get_or_insert_with(|| TableForm { separator: separator(row), index: 0 });
+        let mut cells = cells(row, used.separator).map_err(at)?;
+        if cells.iter().all(|(_, text)| text.is_empty()) {
             continue;
         }
-        script.events.push(event(&cells, row.chars().count() + 1).map_err(at)?);
+        let heading = cells.iter().take(2).position(|(_, text)| text.eq_ignore_ascii_case("tick"));
+        // a robot may be called tick
+        if let (true, Some(index)) = (rows.is_empty(), heading.filter(|_| decimal(&cells[0].1).is_none())) {
+            form = Some(TableForm { index, ..used });
+            continue;
+        }
+        cells.drain(..used.index.min(cells.len()));
+        script.events.push(TableRow { cells: &cells, end: row.chars().count() + 1, form: used }.event().map_err(at)?);
         rows.push((line, [0, 1, 2, 3].map(|i| cells.get(i).map_or(1, |cell: &TableCell| cell.0))));
     }
     // the script's own checks: ticks in order, sizes
@@ -54,75 +83,139 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptT
     Ok(script)
 }
 
-/// The event of a row that ends before column `end`.
-fn event(cells: &[TableCell], end: usize) -> Result<Event, (usize, String)> {
-    let cell = |i: usize, what: &str| match cells.get(i) {
-        Some((column, text)) if text.is_empty() => Err((*column, format!("{what} is missing"))),
-        Some((column, text)) => Ok((*column, text.as_str())),
-        None => Err((end, format!("{what} is missing"))),
-    };
-    let whole = |(column, text): (usize, &str)| {
-        text.parse::<i64>().map_err(|_| (column, format!("{text:?} is no whole number")))
-    };
-    let (column, text) = cell(0, "the tick")?;
-    let tick = text.parse().map_err(|_| (column, format!("{text:?} is no tick: a whole number from 1 on")))?;
-    let (_, robot) = cell(1, "the robot")?;
-    let (column, input) = cell(2, "the input")?;
-    let values = cells.get(3..).unwrap_or_default();
-    let at_most = |n: usize| match values.get(n) {
-        Some((column, _)) => Err((*column, format!("{input} has no more than {n} values"))),
-        None => Ok(()),
-    };
-    let input = match input {
-        "Drive" => {
-            at_most(2)?;
-            let channel = |i, what: &str| {
-                let at = cell(i, what)?;
-                i16::try_from(whole(at)?).map_err(|_| (at.0, format!("{what} {} is too large", at.1)))
-            };
-            RobotInput::Drive(channel(3, "the first channel")?, channel(4, "the second channel")?)
+/// The rows of a text, whatever ends them.
+fn rows_of(mut text: &str) -> impl Iterator<Item = &str> {
+    std::iter::from_fn(move || {
+        if text.is_empty() {
+            return None;
         }
-        "MoveTo" => RobotInput::MoveTo(coordinates(values, end)?),
-        "Teleport" => RobotInput::Teleport(coordinates(values, end)?),
-        "SetTrailer" => {
-            at_most(1)?;
-            RobotInput::SetTrailer(match cell(3, "on or off")? {
-                (_, "on" | "true") => true,
-                (_, "off" | "false") => false,
-                (column, text) => return Err((column, format!("{text:?} is neither on nor off"))),
-            })
-        }
-        "Release" => {
-            at_most(0)?;
-            RobotInput::Release
-        }
-        _ => {
-            let known = "Drive, MoveTo, Teleport, SetTrailer or Release";
-            return Err((column, format!("{input:?} is no input: it must be {known}")));
-        }
-    };
-    Ok(Event { tick, robot: robot.to_owned(), input })
+        let (row, rest) = text.split_at(text.find(ROW_ENDS).unwrap_or(text.len()));
+        text = rest.strip_prefix("\r\n").or_else(|| rest.strip_prefix(ROW_ENDS)).unwrap_or(rest);
+        Some(row)
+    })
 }
 
-/// Metres and radians.
-fn coordinates(cells: &[TableCell], end: usize) -> Result<Vec<Quantized>, (usize, String)> {
-    if cells.is_empty() {
-        return Err((end, "the coordinates are missing".to_owned()));
+/// The sign between the cells of a first row: the first there is outside quotes. A comma before it is taken for a
+/// decimal one if a number stands there.
+fn separator(row: &str) -> char {
+    let mut is_quoted = false;
+    let mut signs = row.char_indices().filter(|(_, c)| {
+        is_quoted ^= *c == '"';
+        !is_quoted && SEPARATORS.contains(c)
+    });
+    let Some((_, first)) = signs.next() else { return ',' };
+    let other = signs.find(|(_, c)| *c != ',').filter(|_| first == ',');
+    match other {
+        Some((at, other)) if decimal(row[..at].trim()).is_some() => other,
+        _ => first,
     }
-    let coordinate = |(column, text): &TableCell| {
-        let number = text.parse::<f64>().map_err(|_| (*column, format!("{text:?} is no number")))?;
-        Quantized::try_new(number).ok_or_else(|| (*column, format!("{text} is too large or not finite")))
-    };
-    cells.iter().map(coordinate).collect()
+}
+
+/// A number with a decimal comma.
+fn decimal(text: &str) -> Option<f64> {
+    let has_point = text.contains('.') || text.matches(',').count() > 1;
+    text.replace(',', ".").parse().ok().filter(|_| !has_point)
+}
+
+/// A row of a table whose text ends before column `end`.
+struct TableRow<'a> {
+    cells: &'a [TableCell],
+    end: usize,
+    form: TableForm,
+}
+
+impl TableRow<'_> {
+    fn event(&self) -> Result<Event, (usize, String)> {
+        let tick = self.whole(self.cell(0, "the tick")?, "is no tick: a whole number from 1 on")?;
+        let tick = u64::try_from(tick)
+            .map_err(|_| (self.cells[0].0, format!("{tick} is no tick: a whole number from 1 on")))?;
+        let (_, robot) = self.cell(1, "the robot")?;
+        let (column, input) = self.cell(2, "the input")?;
+        let values = self.cells.get(3..).unwrap_or_default();
+        let at_most = |n: usize| match values.get(n) {
+            Some((column, _)) => Err((*column, format!("{input} has no more than {n} values"))),
+            None => Ok(()),
+        };
+        let input = match input {
+            "Drive" => {
+                at_most(2)?;
+                RobotInput::Drive(self.channel(3, "the first channel")?, self.channel(4, "the second channel")?)
+            }
+            "MoveTo" => RobotInput::MoveTo(self.coordinates(values)?),
+            "Teleport" => RobotInput::Teleport(self.coordinates(values)?),
+            "SetTrailer" => {
+                at_most(1)?;
+                RobotInput::SetTrailer(on_or_off(self.cell(3, "on or off")?)?)
+            }
+            "Release" => {
+                at_most(0)?;
+                RobotInput::Release
+            }
+            _ => {
+                let known = "Drive, MoveTo, Teleport, SetTrailer or Release";
+                return Err((column, format!("{input:?} is no input: it must be {known}")));
+            }
+        };
+        Ok(Event { tick, robot: robot.to_owned(), input })
+    }
+
+    fn cell(&self, i: usize, what: &str) -> Result<(usize, &str), (usize, String)> {
+        match self.cells.get(i) {
+            Some((column, text)) if text.is_empty() => Err((*column, format!("{what} is missing"))),
+            Some((column, text)) => Ok((*column, text.as_str())),
+            None => Err((self.end, format!("{what} is missing"))),
+        }
+    }
+
+    /// A number, with a decimal comma where commas are not between cells.
+    fn number(&self, text: &str) -> Option<f64> {
+        text.parse().ok().or_else(|| decimal(text).filter(|_| self.form.separator != ','))
+    }
+
+    /// A whole number, which may be written as `1.0`.
+    fn whole(&self, (column, text): (usize, &str), is_none: &str) -> Result<i64, (usize, String)> {
+        // beyond 2^53 a number with a point may be another
+        let float = || self.number(text).filter(|x| x.fract() == 0.0 && x.abs() <= 9_007_199_254_740_992.0);
+        let whole = text.parse().ok().or_else(|| float().map(|x| x as i64));
+        whole.ok_or_else(|| (column, format!("{text:?} {is_none}")))
+    }
+
+    fn channel(&self, i: usize, what: &str) -> Result<i16, (usize, String)> {
+        let at = self.cell(i, what)?;
+        let whole = self.whole(at, "is no whole number")?;
+        i16::try_from(whole).map_err(|_| (at.0, format!("{what} {} is too large", at.1)))
+    }
+
+    /// Metres and radians.
+    fn coordinates(&self, cells: &[TableCell]) -> Result<Vec<Quantized>, (usize, String)> {
+        if cells.is_empty() {
+            return Err((self.end, "the coordinates are missing".to_owned()));
+        }
+        let coordinate = |(column, text): &TableCell| {
+            let number = self.number(text).ok_or_else(|| (*column, format!("{text:?} is no number")))?;
+            Quantized::try_new(number).ok_or_else(|| (*column, format!("{text} is too large or not finite")))
+        };
+        cells.iter().map(coordinate).collect()
+    }
+}
+
+/// Reads `on`, `off`, `true` or `false`, in any letters: spreadsheets write `TRUE`, Python `True`.
+fn on_or_off((column, text): (usize, &str)) -> Result<bool, (usize, String)> {
+    match text.to_ascii_lowercase().as_str() {
+        "on" | "true" => Ok(true),
+        "off" | "false" => Ok(false),
+        _ => Err((column, format!("{text:?} is neither on nor off"))),
+    }
 }
 
 /// The cells of a row, at least one, without white space around them and without empty ones at its end. A cell may
 /// stand in quotes, a quote in it doubled.
-fn cells(row: &str) -> Result<Vec<TableCell>, (usize, String)> {
+fn cells(row: &str, separator: char) -> Result<Vec<TableCell>, (usize, String)> {
     let mut cells = Vec::new();
     let mut rest = row.chars().zip(1..).peekable();
+    let is_blank = |c: char| c.is_whitespace() && c != separator;
     loop {
-        while rest.next_if(|(c, _)| c.is_whitespace()).is_some() {}
+        while rest.next_if(|(c, _)| is_blank(*c)).is_some() {}
         let column = rest.peek().map_or_else(|| row.chars().count() + 1, |(_, column)| *column);
         let mut text = String::new();
         if rest.next_if(|(c, _)| *c == '"').is_some() {
@@ -134,12 +227,13 @@ fn cells(row: &str) -> Result<Vec<TableCell>, (usize, String)> {
                     None => return Err((column, "the quote is not closed".to_owned())),
                 }
             }
-            while rest.next_if(|(c, _)| c.is_whitespace()).is_some() {}
-            if let Some((c, column)) = rest.peek().filter(|(c, _)| *c != ',') {
-                return Err((*column, format!("{c:?} after a quote: a comma belongs there")));
+            while rest.next_if(|(c, _)| is_blank(*c)).is_some() {}
+            if let Some((c, column)) = rest.peek().filter(|(c, _)| *c != separator) {
+                let sign = if separator == ',' { "a comma".into() } else { format!("{separator:?}") };
+                return Err((*column, format!("{c:?} after a quote: {sign} belongs there")));
             }
         } else {
-            while let Some((c, _)) = rest.next_if(|(c, _)| *c != ',') {
+            while let Some((c, _)) = rest.next_if(|(c, _)| *c != separator) {
                 text.push(c);
             }
             text.truncate(text.trim_end().len());
@@ -159,84 +253,4 @@ fn cells(row: &str) -> Result<Vec<TableCell>, (usize, String)> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_table_becomes_the_script_it_describes() {
-        let table = "\u{feff}tick,robot,input,first,second\n# a drive\n1,Rusty,Drive,64,-20\n\n 5 , Reach , MoveTo , 0.5 , -1e-6 \r\n\
-                     7,\"a \"\"b\"\", c\",Teleport,2,,\n9,Hitch,SetTrailer,on\n9,Hitch,SetTrailer,off,,\n12,Rusty,Release,,";
-        let script = super::script(table, None).unwrap();
-        let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };
-        let expected = [
-            event(1, "Rusty", RobotInput::Drive(64, -20)),
-            event(5, "Reach", RobotInput::MoveTo(vec![Quantized(1 << 19), Quantized(-1)])),
-            event(7, "a \"b\", c", RobotInput::Teleport(vec![Quantized(1 << 21)])),
-            event(9, "Hitch", RobotInput::SetTrailer(true)),
-            event(9, "Hitch", RobotInput::SetTrailer(false)),
-            event(12, "Rusty", RobotInput::Release),
-        ];
-        assert_eq!(script.events, expected);
-        assert_eq!(super::script("", None).unwrap(), Script::empty());
-    }
-
-    /// Without the limit, each cell of a row of 36 MB of commas took 60 bytes and more.
-    #[test]
-    fn a_row_has_at_most_a_thousand_cells() {
-        // the first value stands in column 16, and a further one two columns on
-        let row =
-            |values: usize| script(&format!("5,Reach,MoveTo{},x", ",1".repeat(values)), None).unwrap_err().to_string();
-        assert_eq!(row(996), "1:2008: \"x\" is no number");
-        assert_eq!(row(997), "1:2010: more than 1000 cells in a row");
-        assert_eq!(row(1_000_000), "1:2010: more than 1000 cells in a row");
-    }
-
-    #[test]
-    fn errors_name_line_column_and_reason() {
-        for (table, error) in [
-            ("x,Rusty,Release", "1:1: \"x\" is no tick: a whole number from 1 on"),
-            ("tick\n\n0,Rusty,Release", "3:1: tick 0: it must be in 1 to 4294967296"),
-            ("5,Rusty,Release\n4,Rusty,Release", "2:1: tick 4 comes after tick 5: ticks must ascend"),
-            ("5", "1:2: the robot is missing"),
-            ("5,,Release", "1:3: the robot is missing"),
-            ("5,Rusty", "1:8: the input is missing"),
-            (
-                "5,Rusty,drive,1,2",
-                "1:9: \"drive\" is no input: it must be Drive, MoveTo, Teleport, SetTrailer or Release",
-            ),
-            ("5,Rusty,Drive,1", "1:16: the second channel is missing"),
-            ("5,Rusty,Drive,1,fast", "1:17: \"fast\" is no whole number"),
-            ("5,Rusty,Drive,1,0.5", "1:17: \"0.5\" is no whole number"),
-            ("5,Rusty,Drive,99999,0", "1:15: the first channel 99999 is too large"),
-            ("5,Rusty,Drive,129,0", "1:15: channel 129: it must be in -128 to 128"),
-            ("5,Rusty,Drive,1,2,3", "1:19: Drive has no more than 2 values"),
-            ("5,Rusty,Release,3", "1:17: Release has no more than 0 values"),
-            ("5,Reach,MoveTo", "1:15: the coordinates are missing"),
-            ("5,Reach,MoveTo,1,,2", "1:18: \"\" is no number"),
-            ("5,Reach,MoveTo,1,nan", "1:18: nan is too large or not finite"),
-            ("5,Reach,MoveTo,1,1e300", "1:18: 1e300 is too large or not finite"),
-            ("5,Hitch,SetTrailer,yes", "1:20: \"yes\" is neither on nor off"),
-            ("5,\"Rusty,Release", "1:3: the quote is not closed"),
-            ("5,\"Rusty\"x,Release", "1:10: 'x' after a quote: a comma belongs there"),
-            (
-                "5,R\u{e9}\u{e9},Fly",
-                "1:7: \"Fly\" is no input: it must be Drive, MoveTo, Teleport, SetTrailer or Release",
-            ),
-        ] {
-            assert_eq!(script(table, None).unwrap_err().to_string(), error, "{table}");
-        }
-    }
-
-    #[test]
-    fn a_table_is_checked_against_its_world_cell_by_cell() {
-        let config = TourConfig::default();
-        let refused =
-            |row: &str| script(&format!("tick\n4,Rusty,Release\n{row}"), Some(&config)).unwrap_err().to_string();
-        assert_eq!(refused("5,Anna,Release"), "3:3: there is no robot \"Anna\"");
-        let car =
-            "tick 5: robot \"Hitch\" is a hitch and takes no MoveTo: it takes Drive, Teleport, SetTrailer and Release";
-        assert_eq!(refused("5,Hitch,MoveTo,1,2,3"), format!("3:9: {car}"));
-        assert!(refused("5,Reach,MoveTo,1,2,3").starts_with("3:16: tick 5: MoveTo of robot \"Reach\" has 3"));
-        assert!(script("5,Reach,MoveTo,1,2", Some(&config)).is_ok() && script("5,Anna,Release", None).is_ok());
-    }
-}
+mod tests;

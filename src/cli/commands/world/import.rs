@@ -1,6 +1,6 @@
 //! `world import`: a map or drawing of another program as a world file.
 
-use crate::cli::support::choices::one_of;
+use crate::cli::support::choices::{NumberList, one_of};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -10,7 +10,8 @@ use motion_lab::run::Recipe;
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 use motion_lab::worlds::import::{
-    CellStyle, ImportError, Imported, RosMap, SvgOptions, Unknown, irsim, is_ros_map, movingai, svg,
+    CellStyle, ImportError, Imported, IrsimOptions, RosMap, Scenario, SvgOptions, Unknown, irsim, is_ros_map, movingai,
+    svg,
 };
 
 use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, is_dash, read_bytes, read_text_of};
@@ -22,15 +23,19 @@ use crate::cli::{Data, Failure, Outcome, say};
 
 /// Read a map or drawing of another program and write it as a world file.
 ///
-/// A ROS map is given by its yaml file; its image must be a PGM. In a MovingAI map . G S are free, @ O T W occupied. Of
-/// either the occupied cells become solid boxes. In an SVG drawing what is filled becomes a solid obstacle and what is
-/// only stroked a wall, called by their ids; it has its physical size, if it says one. Of an IR-SIM world the static
-/// obstacles are read, and its robots as Rusty (diff) and Hitch (acker).
+/// A ROS map is given by its yaml file; its image may be a PGM, PPM, PBM or PNG. In a MovingAI map . G S are free, @ O
+/// T W occupied. Of either the occupied cells become solid boxes. Of a MovingAI scenario (.scen) the map is read, and
+/// its problems become the places `start 1`, `goal 1`, `start 2` and so on. In an SVG drawing what is filled becomes a
+/// solid obstacle and what is only stroked a wall, called by their ids; it has its physical size, if it says one. Of
+/// an IR-SIM world the static obstacles are read, and its robots with their sizes and lidars as Rusty (diff) and Hitch
+/// (acker).
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   motion-lab world import map.yaml --robot rusty --start 1,2,0 -o map.ron
   motion-lab world import drawing.svg --metres-per-unit 0.01 -o drawing.ron
+  motion-lab world import campus.yaml --shift -431000,-4582000 -o campus.ron
+  motion-lab world import arena.map.scen -o arena.ron
   motion-lab world import arena.map --format movingai --metres-per-cell 0.25 -o arena.ron")]
 pub struct Import {
     /// The map or drawing.
@@ -54,9 +59,18 @@ pub struct Import {
     /// nothing.
     #[arg(long)]
     hollow: bool,
-    /// What the unknown cells of a ROS map are.
-    #[arg(long, value_parser = one_of(UNKNOWN), value_name = "WHAT", default_value = "occupied")]
-    unknown: Unknown,
+    /// What the unknown cells of a ROS map are. [default: occupied; the yaml's thresholds say which are unknown]
+    #[arg(long, value_parser = one_of(UNKNOWN), value_name = "WHAT")]
+    unknown: Option<Unknown>,
+    /// Move a ROS map by this, metres. [default: none; a map that reaches beyond 10 km has its own corner as origin]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    shift: Option<NumberList>,
+    /// Leave out what the lab does not have of an IR-SIM world, such as obstacles that move, and say so.
+    #[arg(long)]
+    lenient: bool,
+    /// The seed of what an IR-SIM world leaves to chance.
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    seed: u64,
     /// The size of a MovingAI map's cells, metres.
     #[arg(long, value_name = "METRES", default_value_t = 1.0)]
     metres_per_cell: f64,
@@ -76,6 +90,8 @@ enum ImportFormat {
     Ros,
     /// A map of the MovingAI benchmarks.
     Movingai,
+    /// A scenario of the MovingAI benchmarks, beside its map.
+    Scen,
     /// A world of IR-SIM: its static obstacles, its robots diff and acker.
     Irsim,
     /// An SVG drawing.
@@ -83,8 +99,14 @@ enum ImportFormat {
 }
 
 /// What unknown cells may be, by name.
-const UNKNOWN: [(&str, Unknown, &str); 2] =
-    [("occupied", Unknown::Occupied, "Not known to be free, hence never called free"), ("free", Unknown::Free, "")];
+const UNKNOWN: [(&str, Unknown, &str); 2] = [
+    (
+        "occupied",
+        Unknown::Occupied,
+        "And so is the shade 205, which map_saver writes for unknown, whatever the thresholds",
+    ),
+    ("free", Unknown::Free, ""),
+];
 
 impl Import {
     /// Runs the command.
@@ -112,28 +134,76 @@ impl Import {
 
     fn read(&self, kind: ImportFormat) -> Result<Imported, Failure> {
         let file = self.file.display().to_string();
-        let stem = self.file.file_stem().map(|stem| stem.to_string_lossy().into_owned());
-        let name = self.name.clone().or(stem).unwrap_or_default();
-        let style = if self.hollow { CellStyle::Hollow } else { CellStyle::Solid };
-        let limit = if kind == ImportFormat::Movingai { MAX_TEXT } else { MAX_FOREIGN };
+        let name = self.world_name();
+        if self.shift.is_some() && kind != ImportFormat::Ros {
+            return Err(Failure::usage("--shift: only ROS maps lie somewhere else", "Leave it out."));
+        }
+        let limit = if matches!(kind, ImportFormat::Movingai | ImportFormat::Scen) { MAX_TEXT } else { MAX_FOREIGN };
         let text = read_text_of(&self.file, limit)?;
         match kind {
-            ImportFormat::Ros => RosMap::parse(&file, &text).map_err(refused).and_then(|map| {
-                // the image lies where the yaml says, seen from the yaml's own folder
-                let image = self.file.parent().unwrap_or(Path::new("")).join(&map.image);
-                let bytes = read_bytes(&image, MAX_TEXT)?;
-                let cells = map.cells(&image.display().to_string(), &bytes, self.unknown).map_err(refused)?;
-                cells.world(&file, &name, style).map_err(refused)
-            }),
-            ImportFormat::Movingai => movingai(&file, &text, self.metres_per_cell)
-                .and_then(|cells| cells.world(&file, &name, style))
-                .map_err(refused),
-            ImportFormat::Irsim => irsim(&file, &text, &name).map_err(refused),
+            ImportFormat::Ros => self.ros(&file, &text, &name),
+            ImportFormat::Movingai => self.movingai(&file, &text, &name),
+            ImportFormat::Scen => self.scenario(&file, &text, &name),
+            ImportFormat::Irsim => {
+                let options = IrsimOptions { is_lenient: self.lenient, seed: Seed(self.seed) };
+                irsim(&file, &text, &name, options).map_err(refused)
+            }
             ImportFormat::Svg => {
                 let options = SvgOptions { metres_per_unit: self.metres_per_unit, tolerance: self.tolerance };
                 svg(&file, &text, &name, options).map_err(refused)
             }
         }
+    }
+
+    /// The world's name: as asked for, or the file's, of `arena.map.scen` without both endings.
+    fn world_name(&self) -> String {
+        let stem = self.file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        self.name.clone().unwrap_or_else(|| stem.strip_suffix(".map").map_or(stem.clone(), str::to_owned))
+    }
+
+    fn style(&self) -> CellStyle {
+        if self.hollow { CellStyle::Hollow } else { CellStyle::Solid }
+    }
+
+    fn ros(&self, file: &str, text: &str, name: &str) -> Result<Imported, Failure> {
+        let mut map = RosMap::parse(file, text).map_err(refused)?;
+        if let Some(NumberList(shift)) = &self.shift {
+            let &[x, y] = &shift[..] else {
+                return Err(Failure::usage("--shift takes two numbers: x,y", "For example --shift -431000,-4582000."));
+            };
+            map.origin.x += x;
+            map.origin.y += y;
+        }
+        // the image lies where the yaml says, seen from the yaml's own folder
+        let image = self.beside(&map.image);
+        let bytes = read_bytes(&image, MAX_TEXT)?;
+        let unknown = self.unknown.unwrap_or_default();
+        let cells = map.cells(&image.display().to_string(), &bytes, unknown).map_err(refused)?;
+        cells.world(file, name, self.style()).map_err(refused)
+    }
+
+    fn movingai(&self, file: &str, text: &str, name: &str) -> Result<Imported, Failure> {
+        let cells = movingai(file, text, self.metres_per_cell).map_err(refused)?;
+        cells.world(file, name, self.style()).map_err(refused)
+    }
+
+    fn scenario(&self, file: &str, text: &str, name: &str) -> Result<Imported, Failure> {
+        let scenario = Scenario::parse(file, text).map_err(refused)?;
+        // scenarios name their map by a path of whoever made them: it lies there, or beside the scenario
+        let base = Path::new(&scenario.map).file_name().unwrap_or_default();
+        let places = [self.beside(&scenario.map), self.beside(base), self.file.with_extension("")];
+        let map = places.iter().find(|path| path.is_file()).unwrap_or(&places[1]);
+        let map_name = map.display().to_string();
+        let cells = movingai(&map_name, &read_text_of(map, MAX_TEXT)?, self.metres_per_cell).map_err(refused)?;
+        let size = [cells.grid.columns(), cells.grid.rows()].map(u64::from);
+        let mut imported = cells.world(&map_name, name, self.style()).map_err(refused)?;
+        scenario.put_places(file, size, self.metres_per_cell, &mut imported).map_err(refused)?;
+        Ok(imported)
+    }
+
+    /// A path as seen from the file's own folder.
+    fn beside(&self, path: impl AsRef<Path>) -> PathBuf {
+        self.file.parent().unwrap_or(Path::new("")).join(path)
     }
 }
 
@@ -146,16 +216,17 @@ fn kind_of(file: &Path) -> Result<ImportFormat, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     match extension.as_str() {
         "map" => Ok(ImportFormat::Movingai),
+        "scen" => Ok(ImportFormat::Scen),
         "svg" => Ok(ImportFormat::Svg),
         "yaml" | "yml" if is_ros_map(&read_text_of(file, MAX_FOREIGN)?) => Ok(ImportFormat::Ros),
         "yaml" | "yml" => Ok(ImportFormat::Irsim),
-        "pgm" => Err(Failure::usage(
+        "pgm" | "ppm" | "pbm" | "png" => Err(Failure::usage(
             format!("{}: this is a ROS map's image", file.display()),
             "Name the yaml file beside it: that tells the size of a pixel and where the map lies.",
         )),
         _ => Err(Failure::usage(
             format!("{}: its name does not tell what it is", file.display()),
-            "Say it with --format: ros, movingai, irsim or svg.",
+            "Say it with --format: ros, movingai, scen, irsim or svg.",
         )),
     }
 }
