@@ -182,7 +182,8 @@ pub struct Control<R: SimulatedRobot>(pub R::Control);
 /// A robot's contacts.
 #[derive(Component, Clone, Debug, PartialEq, Eq)]
 pub struct Contacts<R: SimulatedRobot> {
-    /// Whether the last tick was in contact.
+    /// Whether the last tick's motion met an obstacle, another robot or its own limit. A robot that is held before what
+    /// it meets does not touch it.
     pub in_contact: bool,
     /// Contact episodes since tick 0. An episode begins at a tick in contact after one that was not.
     pub episodes: u32,

@@ -1,0 +1,5 @@
+//! What commands do with the files of others: nothing is lost.
+
+mod interrupts;
+mod loss;
+mod pipes;
