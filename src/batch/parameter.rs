@@ -126,6 +126,13 @@ impl Parameter {
         })
     }
 
+    /// The parameter that is nearly called so.
+    pub fn meant(name: &str, worlds: &[&World]) -> Option<String> {
+        let of_robots = worlds.iter().flat_map(|world| &world.robots).flat_map(RobotParameter::names);
+        let all: Vec<String> = OF_RUN.iter().map(|(known, ..)| (*known).to_owned()).chain(of_robots).collect();
+        nearest(name, all.iter().map(String::as_str)).map(str::to_owned)
+    }
+
     /// Its name: `Rusty.noise.sigma_hit`.
     pub fn name(&self) -> String {
         match self {
@@ -235,6 +242,20 @@ impl RobotParameter {
         }
         let mut own = Sizes::of_kind(&resident.kind)?;
         set_size(&mut own, name, 1.0).then(|| RobotParameter::Size(name.to_owned()))
+    }
+
+    /// The names of a robot's parameters, but for those of its sizes.
+    fn names(resident: &Resident) -> Vec<String> {
+        let noise = || NOISE.iter().map(|(number, _)| *number);
+        let coordinates = RobotKind::of(&resident.kind).map_or(&[][..], |kind| kind.coordinates);
+        let starts = coordinates.iter().map(|coordinate| format!("start.{coordinate}"));
+        let of_sensors = resident.sensors.iter().flat_map(|sensor| {
+            let numbers = SENSOR.iter().map(|(number, _)| *number).chain(noise());
+            numbers.map(|number| format!("sensors.{}.{number}", sensor.name))
+        });
+        let all =
+            std::iter::once("start".to_owned()).chain(starts).chain(noise().map(|number| format!("noise.{number}")));
+        all.chain(of_sensors).map(|name| format!("{}.{name}", resident.name)).collect()
     }
 
     fn in_words(resident: &Resident) -> String {

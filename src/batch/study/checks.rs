@@ -72,8 +72,11 @@ pub fn make_axes(study: &StudyText, worlds: &[&World]) -> Result<Vec<CheckedAxis
         Sources { sensor: !study.no_sensor, warehouse: study.warehouse.is_some(), planner: study.planner.is_some() };
     for (i, text) in study.axes.iter().enumerate() {
         let refused = |problem| (StudyItem::Axis(i), problem);
-        let parameter =
-            Parameter::named(&text.vary, worlds).map_err(|there| refused(SweepProblem::Parameter(there)))?;
+        let parameter = Parameter::named(&text.vary, worlds).map_err(|there| {
+            let meant = Parameter::meant(&text.vary, worlds);
+            let meant = meant.map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+            refused(SweepProblem::Parameter(there + &meant))
+        })?;
         if let Some(before) = axes.iter().position(|axis| axis.parameter.overlaps(&parameter)) {
             return Err(refused(SweepProblem::Twice(before)));
         }

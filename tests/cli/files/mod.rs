@@ -2,4 +2,5 @@
 
 mod interrupts;
 mod loss;
+mod names;
 mod pipes;
