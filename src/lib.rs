@@ -64,11 +64,11 @@
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
-#[doc(hidden)]
-pub use motion_lab_core::text_position;
 pub use motion_lab_core::{
     collision, configuration, cspace, geometry, num, picture, planning, prelude, random, robots, sensors, short_list,
 };
+#[doc(hidden)]
+pub use motion_lab_core::{names, text_position};
 #[doc(hidden)]
 pub use motion_lab_sim::manifest;
 pub use motion_lab_sim::{anatomy, atlas, export, plans, run, simulation, tour};

@@ -4,12 +4,12 @@ mod cli;
 
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::FromArgMatches;
 
-use cli::{Cli, Data, Failure, Outcome, say};
+use cli::{Cli, Data, Failure, Outcome, program, say};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::from_arg_matches(&program().get_matches()).unwrap_or_else(|error| error.exit());
     let mut data = Data::stdout();
     let ended = cli.run(&mut data).and_then(|outcome| data.finish().map(|()| outcome));
     ExitCode::from(match ended {

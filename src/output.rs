@@ -4,8 +4,9 @@ use std::ffi::{OsStr, OsString};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, TempDir};
 
 /// A file under construction. It is written under a temporary name in the folder of its final name;
 /// [`commit`](Self::commit) renames it in one step. Until then, and when it is dropped, an older file of the final name
@@ -16,6 +17,7 @@ use tempfile::{Builder, NamedTempFile};
 pub struct PendingFile {
     path: PathBuf,
     file: BufWriter<NamedTempFile>,
+    begun: Begun,
 }
 
 impl PendingFile {
@@ -25,20 +27,28 @@ impl PendingFile {
     /// # Errors
     /// [`io::Error`] gives the reason.
     pub fn create(path: &Path) -> io::Result<Self> {
-        // a symbolic link is followed to the file itself
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let path = resolved(path);
         let older = older_permissions(&path)?;
         let mut prefix = OsString::from(".");
         prefix.push(shortened(path.file_name().unwrap_or_default()));
         prefix.push(".");
-        let file = builder().prefix(&prefix).suffix(SUFFIX).tempfile_in(folder_of(&path)).map_err(plain)?;
+        let (file, begun) = Begun::begin(
+            || builder().prefix(&prefix).suffix(SUFFIX).tempfile_in(folder_of(&path)).map_err(plain),
+            NamedTempFile::path,
+        )?;
         // The lock lasts until the file is closed or the process ends. By it other processes tell the file from one
         // that a killed process left. On systems without locks they can't.
         let _ = file.as_file().lock();
         if let Some(permissions) = older {
             file.as_file().set_permissions(permissions)?;
         }
-        Ok(PendingFile { path, file: BufWriter::new(file) })
+        Ok(PendingFile { path, file: BufWriter::new(file), begun })
+    }
+
+    /// Lets [`abandon_all`] keep the file as `path`, in the same folder, where there is no file of this name.
+    pub fn keep_when_abandoned(&self, path: &Path) {
+        let own = &self.begun.0;
+        begun_here().iter_mut().filter(|(file, _)| file == own).for_each(|(_, kept)| *kept = Some(path.to_owned()));
     }
 
     /// Writes the file to the disk, then gives it its final name.
@@ -86,6 +96,90 @@ impl Write for PendingFile {
     }
 }
 
+/// The files and folders that this process has begun and not ended; of a file also the name to keep it by.
+static BEGUN: Mutex<Vec<(PathBuf, Option<PathBuf>)>> = Mutex::new(Vec::new());
+
+fn begun_here() -> MutexGuard<'static, Vec<(PathBuf, Option<PathBuf>)>> {
+    BEGUN.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The path of a file or folder in [`BEGUN`], which is taken from there with it.
+struct Begun(PathBuf);
+
+impl Begun {
+    /// What `make` makes, at the path that `path_of` says.
+    fn begin<T>(make: impl FnOnce() -> io::Result<T>, path_of: impl FnOnce(&T) -> &Path) -> io::Result<(T, Self)> {
+        let mut begun = begun_here();
+        let made = make()?;
+        let path = path_of(&made).to_owned();
+        begun.push((path.clone(), None));
+        Ok((made, Begun(path)))
+    }
+}
+
+impl Drop for Begun {
+    fn drop(&mut self) {
+        begun_here().retain(|(path, _)| *path != self.0);
+    }
+}
+
+/// A temporary folder, for files that are passed on. It goes when it is dropped, and by [`abandon_all`].
+pub struct PassingFolder {
+    folder: TempDir,
+    _begun: Begun,
+}
+
+impl PassingFolder {
+    /// Makes the folder.
+    ///
+    /// # Errors
+    /// [`io::Error`] when it can't be made.
+    pub fn new() -> io::Result<Self> {
+        let (folder, begun) = Begun::begin(TempDir::new, TempDir::path)?;
+        Ok(PassingFolder { folder, _begun: begun })
+    }
+
+    /// The folder.
+    pub fn path(&self) -> &Path {
+        self.folder.path()
+    }
+}
+
+/// Ends the process at once, with this exit code. Its files under construction are taken away first, but for those
+/// that [`keep_when_abandoned`](PendingFile::keep_when_abandoned) gives a name. No other file is touched.
+pub fn abandon_all(code: i32) -> ! {
+    // the lock is kept to the end, so that no file is begun meanwhile
+    let begun = begun_here();
+    for (path, kept) in begun.iter() {
+        match kept {
+            Some(kept) if !kept.exists() => _ = fs::rename(path, kept),
+            _ if path.is_dir() => _ = fs::remove_dir_all(path),
+            _ => _ = fs::remove_file(path),
+        }
+    }
+    std::process::exit(code)
+}
+
+/// Most links that are followed one after the other.
+const MAX_LINKS: usize = 40;
+
+/// The place that a path names: symbolic links are followed, also to a file that is not there yet, and the folder is
+/// spelled in the one way that the system has for it.
+pub fn resolved(path: &Path) -> PathBuf {
+    let mut path = path.to_owned();
+    for _ in 0..MAX_LINKS {
+        let Ok(to) = fs::read_link(&path) else { break };
+        path = folder_of(&path).join(to);
+    }
+    if let Ok(there) = fs::canonicalize(&path) {
+        return there;
+    }
+    match (fs::canonicalize(folder_of(&path)), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path,
+    }
+}
+
 /// The end of a temporary name.
 const SUFFIX: &str = ".unfinished";
 
@@ -116,8 +210,7 @@ fn folder_of(path: &Path) -> &Path {
 /// [`io::Error`] when the folder can't be read.
 pub fn unfinished(path: &Path) -> io::Result<Vec<PathBuf>> {
     let mut found = Vec::new();
-    // a symbolic link is followed, as for the output
-    let output = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let output = resolved(path);
     for entry in fs::read_dir(folder_of(&output))? {
         let path = folder_of(&output).join(entry?.file_name());
         if is_temporary(&path) && is_left(&path)? {

@@ -6,6 +6,7 @@ use super::axis::CheckedAxis;
 use super::csv;
 use super::parameter::{Parameter, RobotParameter, ValueForm};
 use motion_lab_core::configuration::RobotKind;
+use motion_lab_sim::export::csv_cell;
 
 /// The kind of a column's values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -84,6 +85,12 @@ fn coordinates(kind: Option<&'static RobotKind>) -> impl Iterator<Item = (&'stat
 /// The names of columns as a line of comma-separated values.
 pub(super) fn heading(columns: &[Column]) -> String {
     csv::line(columns.iter().map(|column| column.name.clone()))
+}
+
+/// The names of the columns as the first line of a table for others.
+pub(super) fn table_heading(columns: &[Column]) -> String {
+    let names: Vec<String> = columns.iter().map(|column| csv_cell(&column.name)).collect();
+    names.join(",")
 }
 
 /// The columns of a table: the row's number, seed and length, the axes, the run as a whole, then each robot.

@@ -2,6 +2,7 @@
 
 use super::values::AxisValue;
 use motion_lab_core::configuration::{RobotKind, Sizes};
+use motion_lab_core::names::nearest;
 use motion_lab_core::worlds::{BeamModel, Resident, ResidentSensor, World};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -125,6 +126,13 @@ impl Parameter {
         })
     }
 
+    /// The parameter that is nearly called so.
+    pub fn meant(name: &str, worlds: &[&World]) -> Option<String> {
+        let of_robots = worlds.iter().flat_map(|world| &world.robots).flat_map(RobotParameter::names);
+        let all: Vec<String> = OF_RUN.iter().map(|(known, ..)| (*known).to_owned()).chain(of_robots).collect();
+        nearest(name, all.iter().map(String::as_str)).map(str::to_owned)
+    }
+
     /// Its name: `Rusty.noise.sigma_hit`.
     pub fn name(&self) -> String {
         match self {
@@ -236,6 +244,20 @@ impl RobotParameter {
         set_size(&mut own, name, 1.0).then(|| RobotParameter::Size(name.to_owned()))
     }
 
+    /// The names of a robot's parameters, but for those of its sizes.
+    fn names(resident: &Resident) -> Vec<String> {
+        let noise = || NOISE.iter().map(|(number, _)| *number);
+        let coordinates = RobotKind::of(&resident.kind).map_or(&[][..], |kind| kind.coordinates);
+        let starts = coordinates.iter().map(|coordinate| format!("start.{coordinate}"));
+        let of_sensors = resident.sensors.iter().flat_map(|sensor| {
+            let numbers = SENSOR.iter().map(|(number, _)| *number).chain(noise());
+            numbers.map(|number| format!("sensors.{}.{number}", sensor.name))
+        });
+        let all =
+            std::iter::once("start".to_owned()).chain(starts).chain(noise().map(|number| format!("noise.{number}")));
+        all.chain(of_sensors).map(|name| format!("{}.{name}", resident.name)).collect()
+    }
+
     fn in_words(resident: &Resident) -> String {
         let name = &resident.name;
         let coordinates = RobotKind::of(&resident.kind).map_or(&[][..], |kind| kind.coordinates);
@@ -282,8 +304,10 @@ impl RobotParameter {
                 Ok(())
             }
             RobotParameter::Sensor { sensor, number: name } => {
+                let all = resident.sensors.iter().map(|own| own.name.as_str());
+                let meant = nearest(sensor, all).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
                 let sensor = resident.sensors.iter_mut().find(|own| own.name == *sensor);
-                let own: &mut ResidentSensor = sensor.ok_or("it has no such sensor")?;
+                let own: &mut ResidentSensor = sensor.ok_or_else(|| format!("it has no such sensor{meant}"))?;
                 match *name {
                     "rays" => own.rays.sensor.n_rays = number as u32,
                     "range" => own.rays.sensor.max_range = number,

@@ -2,6 +2,7 @@
 
 use super::columns::{CellKind, Column};
 use super::csv;
+use motion_lab_sim::export::csv_cell;
 
 /// A value of a row.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +38,15 @@ impl RowValue {
         if text.is_empty() { RowValue::Empty } else { RowValue::Text(text) }
     }
 
+    fn to_table_cell(&self) -> String {
+        match self {
+            RowValue::Empty => String::new(),
+            RowValue::Whole(n) => n.to_string(),
+            RowValue::Number(x) => x.to_string(),
+            RowValue::Text(text) => csv_cell(text),
+        }
+    }
+
     fn read(text: String, kind: CellKind) -> Option<RowValue> {
         if text.is_empty() {
             return Some(RowValue::Empty);
@@ -60,6 +70,13 @@ impl RunRow {
             RowValue::Text(text) => text.clone(),
         });
         csv::line(texts)
+    }
+
+    /// The row as a line of a table for others, without its end: as [`to_line`](Self::to_line), but texts are cells by
+    /// [`csv_cell`], so that none is a formula.
+    pub fn to_table_line(&self) -> String {
+        let cells: Vec<String> = self.cells.iter().map(RowValue::to_table_cell).collect();
+        cells.join(",")
     }
 
     /// The row of a line of a table with these columns; `None` where they do not fit.

@@ -141,9 +141,7 @@ pub fn slides(captures: &[Captured], hundredths: u16, paper: &Paper, path: &Path
     for captured in &captures[..captures.len() - 1] {
         writer.write(&paint(captured)?)?;
     }
-    for _ in 0..LAST.div_ceil(hundredths) {
-        writer.write(&end)?;
-    }
+    writer.write_for(&end, std::cmp::max(LAST, hundredths))?;
     Ok(writer.finish()?.commit()?)
 }
 

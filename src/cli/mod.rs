@@ -8,6 +8,7 @@ pub use support::end::{Failure, Outcome};
 
 use clap::{CommandFactory, Parser, Subcommand};
 use support::console::be_quiet;
+use support::{gate, interrupt};
 
 use commands::{
     bare, capture, completions, describe, diff, export, grade, info, plan, plot, query, record, replay, script, stats,
@@ -31,7 +32,7 @@ Exit codes:
       has no path
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
-  75  stopped early; `record --resume`, or the same `sweep` again, goes on
+  75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare` keeps what it finished
 
 Data goes to standard output, messages to standard error.";
 
@@ -47,6 +48,9 @@ pub struct Cli {
     /// Say only what is wrong: no notes on what was written, no progress.
     #[arg(long, short, global = true)]
     quiet: bool,
+    /// Let an output that is no log replace a log. An input is never replaced.
+    #[arg(long, global = true)]
+    force: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -73,11 +77,40 @@ enum CliCommand {
     Man(completions::ManPages),
 }
 
+/// The program's command line. A number that begins with a minus sign is a value of every option, so that what is wrong
+/// with it is said.
+pub fn program() -> clap::Command {
+    with_negative_numbers(Cli::command())
+}
+
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let command =
+        command.mut_args(|arg| if arg.get_action().takes_values() { arg.allow_negative_numbers(true) } else { arg });
+    let names: Vec<String> = command.get_subcommands().map(|below| below.get_name().to_owned()).collect();
+    names.into_iter().fold(command, |command, name| command.mut_subcommand(name, with_negative_numbers))
+}
+
 impl Cli {
+    /// Whether the command opens the window, which has signals of its own.
+    fn opens_window(&self) -> bool {
+        match &self.command {
+            None => cfg!(all(feature = "window", not(feature = "headless"))),
+            #[cfg(feature = "window")]
+            Some(CliCommand::Open(_)) => true,
+            Some(_) => false,
+        }
+    }
+
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         if self.quiet {
             be_quiet();
+        }
+        if self.force {
+            gate::force();
+        }
+        if !self.opens_window() {
+            interrupt::install()?;
         }
         match self.command {
             Some(CliCommand::Record(record)) => record.run(data),
@@ -94,13 +127,13 @@ impl Cli {
             Some(CliCommand::World(world)) => world.run(data),
             Some(CliCommand::Script(script)) => script.run(data),
             Some(CliCommand::Sweep(sweep)) => sweep.run(data),
-            Some(CliCommand::Completions(completions)) => completions.run(Cli::command(), data),
-            Some(CliCommand::Man(man)) => man.run(Cli::command(), data),
+            Some(CliCommand::Completions(completions)) => completions.run(program(), data),
+            Some(CliCommand::Man(man)) => man.run(program(), data),
             Some(CliCommand::Grade(grade)) => grade.run(data),
             Some(CliCommand::Describe(describe)) => describe.run(data),
             #[cfg(feature = "window")]
             Some(CliCommand::Open(open)) => open.run(),
-            None => bare::bare(Cli::command(), data),
+            None => bare::bare(program(), data),
         }
     }
 }

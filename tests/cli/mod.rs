@@ -1,6 +1,7 @@
 //! The whole program: every command and every exit code, by running it.
 
 mod exports;
+mod files;
 mod grades;
 mod program;
 mod questions;
@@ -172,10 +173,10 @@ fn the_tour_is_recorded_replayed_and_drawn() {
 
 #[cfg(all(feature = "window", not(feature = "headless"), target_os = "linux"))]
 #[test]
-fn no_display_is_6_and_names_the_headless_command() {
+fn no_display_is_6_and_names_what_works_without() {
     let ended = ended(command(&[]).env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").output().unwrap());
     let error = ended.failed(6);
-    assert!(error.lines().count() == 1 && error.contains("cargo run --features headless"), "{error}");
+    assert!(error.lines().count() == 1 && error.contains("motion-lab --help"), "{error}");
 }
 
 #[cfg(not(any(feature = "window", feature = "headless")))]

@@ -43,6 +43,9 @@ pub mod short_list;
 #[doc(hidden)]
 pub mod text_position;
 
+#[doc(hidden)]
+pub mod names;
+
 pub mod random;
 
 pub mod geometry;

@@ -59,10 +59,18 @@ impl<W: Write> GifWriter<W> {
     /// # Errors
     /// [`io::Error`] when it can't be written.
     pub fn write(&mut self, image: &Image) -> io::Result<()> {
+        self.write_for(image, self.hundredths)
+    }
+
+    /// Writes the next image, which is shown for `hundredths` of a second instead.
+    ///
+    /// # Errors
+    /// [`io::Error`] when it can't be written.
+    pub fn write_for(&mut self, image: &Image, hundredths: u16) -> io::Result<()> {
         let (width, height) = (image.width as u16, image.height as u16);
         let FewColours { palette, pixels } = FewColours::of(&image.rgb, self.palette);
         let mut frame = gif::Frame::from_palette_pixels(width, height, pixels, palette, None);
-        frame.delay = self.hundredths;
+        frame.delay = hundredths;
         self.encoder.write_frame(&frame).map_err(|error| match error {
             gif::EncodingError::Io(error) => error,
             error => io::Error::other(error),

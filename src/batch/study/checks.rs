@@ -7,6 +7,7 @@ use crate::batch::parameter::{Parameter, RobotParameter, Sources};
 use crate::batch::study_text::{GoalText, StudyItem, StudyText};
 use crate::batch::values::Over;
 use motion_lab_core::configuration::{RobotKind, Sizes};
+use motion_lab_core::names::nearest;
 use motion_lab_core::worlds::{BeamModel, Resident, World, WorldProblem};
 
 /// What is wrong with a robot's sizes or noise, when all axes have their values.
@@ -21,7 +22,9 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
     let unknown = |robot: &str| {
         let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).take(20).collect();
         let there = if names.is_empty() { "none".into() } else { names.join(", ") };
-        SweepProblem::Robot { robot: robot.to_owned(), there }
+        let all = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str());
+        let meant = nearest(robot, all).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+        SweepProblem::Robot { robot: robot.to_owned(), there: there + &meant }
     };
     if let Some(robot) = study.robots.iter().find(|name| find(name).is_none()) {
         return Err((StudyItem::Robots, unknown(robot)));
@@ -69,8 +72,11 @@ pub fn make_axes(study: &StudyText, worlds: &[&World]) -> Result<Vec<CheckedAxis
         Sources { sensor: !study.no_sensor, warehouse: study.warehouse.is_some(), planner: study.planner.is_some() };
     for (i, text) in study.axes.iter().enumerate() {
         let refused = |problem| (StudyItem::Axis(i), problem);
-        let parameter =
-            Parameter::named(&text.vary, worlds).map_err(|there| refused(SweepProblem::Parameter(there)))?;
+        let parameter = Parameter::named(&text.vary, worlds).map_err(|there| {
+            let meant = Parameter::meant(&text.vary, worlds);
+            let meant = meant.map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+            refused(SweepProblem::Parameter(there + &meant))
+        })?;
         if let Some(before) = axes.iter().position(|axis| axis.parameter.overlaps(&parameter)) {
             return Err(refused(SweepProblem::Twice(before)));
         }

@@ -6,7 +6,7 @@ mod draft;
 use std::collections::BTreeMap;
 
 use super::axis::CheckedAxis;
-use super::columns::{Column, RobotColumns, columns, heading};
+use super::columns::{Column, RobotColumns, columns, heading, table_heading};
 use super::error::{PLAN_VERSION, SweepProblem};
 use super::parameter::{Parameter, RobotParameter, RunParameter};
 use super::planning::{Planning, PlanningResult};
@@ -142,6 +142,11 @@ impl Study {
     /// The names of the columns as a line of comma-separated values, without its end.
     pub fn heading(&self) -> String {
         heading(&self.columns)
+    }
+
+    /// The names of the columns as the first line of a table for others, none of them a formula.
+    pub fn table_heading(&self) -> String {
+        table_heading(&self.columns)
     }
 
     /// The names of the axes and the numbers of their values; `None` for a range without steps.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use motion_lab::capture::{CaptureForm, MAX_LINES, RunPlot, plot};
 use motion_lab::configuration::Kinds;
+use motion_lab::names::did_you_mean;
 use motion_lab::run::{Difference, Log, Quantity, Recipe, Series, SeriesGatherer};
 
 use crate::cli::support::choices::{RobotNames, form, one_of};
@@ -71,7 +72,7 @@ impl PlotArgs {
         let paper = self.paper.paper();
         let captured = plot(&run, paper.width_px());
         let target = Target::of(&self.output)?;
-        write_picture(&captured, &paper, form, target.path())?;
+        write_picture(&captured, &paper, form, &target)?;
         target.finish(data)?;
         Ok(match (difference, damage) {
             (Some(_), _) => Outcome::Differs,
@@ -96,7 +97,8 @@ impl PlotArgs {
         let there = || config.robot_names().collect::<Vec<_>>().join(", ");
         if let Some(unknown) = self.robot.iter().find(|name| !config.robot_names().any(|known| known == *name)) {
             let reason = format!("--robot {unknown}: the run has no such robot");
-            return Err(Failure::usage(reason, format!("It has {}.", there())));
+            let meant = did_you_mean(unknown, config.robot_names());
+            return Err(Failure::usage(reason, format!("{meant}It has {}.", there())));
         }
         let wants = |name: &str| self.robot.is_empty() || self.robot.iter().any(|wanted| wanted == name);
         let kinds = Kinds::default();

@@ -63,9 +63,9 @@ impl ReplayArgs {
         if let Some(damage) = &damage {
             say(format!("{damage}\nThis much is compared; the run is replayed to its end."));
         }
-        let target = self.output.as_deref().map(Target::file).transpose()?;
-        interrupt::listen()?;
-        let Some((last, comparison)) = self.replay(&log)? else {
+        let target = self.output.as_deref().map(Target::log).transpose()?;
+        interrupt::listen();
+        let Some((last, comparison)) = self.replay(&log, target.as_ref())? else {
             say("stopped; nothing was written. Replay it again.");
             return Ok(Outcome::Stopped);
         };
@@ -91,10 +91,14 @@ impl ReplayArgs {
     }
 
     /// Runs the log's run to its end, and returns the last frame; `None` when somebody asked to stop.
-    fn replay<'a>(&self, log: &'a Log) -> Result<Option<(Frame, Comparison<&'a Log>)>, Failure> {
+    fn replay<'a>(
+        &self,
+        log: &'a Log,
+        target: Option<&Target>,
+    ) -> Result<Option<(Frame, Comparison<&'a Log>)>, Failure> {
         let mut run = begin(&log.recipe)?;
         let mut comparison = Comparison::begin(log, run.frame());
-        let mut writer = self.writer(log, run.frame())?;
+        let mut writer = self.writer(log, target, run.frame())?;
         let progress = CommandProgress::of(log.recipe.config.ticks, "ticks");
         while !run.is_complete() {
             if interrupt::asked_to_stop() {
@@ -113,9 +117,14 @@ impl ReplayArgs {
         Ok(Some((run.frame().clone(), comparison)))
     }
 
-    fn writer(&self, log: &Log, initial: &Frame) -> Result<Option<LogWriter<ReportedFile>>, Failure> {
-        let Some(output) = &self.output else { return Ok(None) };
-        let (file, kind) = (ReportedFile::create(output)?, self.log.unwrap_or(log.kind()));
+    fn writer(
+        &self,
+        log: &Log,
+        target: Option<&Target>,
+        initial: &Frame,
+    ) -> Result<Option<LogWriter<ReportedFile>>, Failure> {
+        let Some(target) = target else { return Ok(None) };
+        let (file, kind) = (ReportedFile::create(target)?, self.log.unwrap_or(log.kind()));
         LogWriter::new(file, &log.recipe, kind, initial).map(Some).map_err(|error| self.failed(error))
     }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::configuration::Kinds;
-use motion_lab::export::JsonNumber;
+use motion_lab::export::{JsonNumber, json_seed};
 use motion_lab::run::{Recipe, RobotStats, RunStats, StatsGatherer, seconds};
 use serde::Serialize;
 
@@ -36,6 +36,7 @@ pub struct StatsArgs {
 #[derive(Serialize)]
 struct LogStats<'a> {
     file: String,
+    #[serde(serialize_with = "json_seed")]
     seed: u64,
     ticks: u64,
     seconds: JsonNumber,

@@ -30,9 +30,10 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
     fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
     let file = folder.join(format!("tour-{BOOK_SEED}.mcap"));
     let recipe = Recipe::new(TourConfig::default(), BOOK_SEED);
-    let recorded = Target::of(&file)?;
-    interrupt::listen()?;
-    if let Ended::Stopped(tick) = write_run(&recipe, LogKind::Frames, None, StopRule::default(), &file)? {
+    let drawing = folder.join(format!("tour-{BOOK_SEED}.svg"));
+    let (recorded, drawn) = (Target::log(&file)?, Target::of(&drawing)?);
+    interrupt::listen();
+    if let Ended::Stopped(tick) = write_run(&recipe, LogKind::Frames, None, StopRule::default(), &recorded)? {
         say(format!("stopped after tick {tick}; run it again"));
         return Ok(Outcome::Stopped);
     }
@@ -55,9 +56,7 @@ pub fn tour(data: &mut Data) -> Result<Outcome, Failure> {
         return Ok(Outcome::Differs);
     }
 
-    let drawing = folder.join(format!("tour-{BOOK_SEED}.svg"));
-    let drawn = Target::of(&drawing)?;
-    write_file(&drawing, figure.svg(&log.recipe, ticks, digest, Theme::Light).as_bytes())?;
+    write_file(&drawn, figure.svg(&log.recipe, ticks, digest, Theme::Light).as_bytes())?;
     recorded.wrote();
     drawn.wrote();
     note(

@@ -5,9 +5,11 @@ use std::ffi::OsStr;
 use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, Error};
 use motion_lab::capture::CaptureForm;
 use motion_lab::configuration::RobotKind;
+use motion_lab::names::nearest;
 use motion_lab::picture::Theme;
 use motion_lab::plans::CheckerName;
 use motion_lab::run::LogKind;
@@ -53,14 +55,43 @@ impl FromStr for NumberList {
 pub fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
     values: [(&'static str, T, &'static str); N],
 ) -> impl TypedValueParser<Value = T> {
-    let value = |(name, _, help): (&'static str, T, &'static str)| {
-        let value = PossibleValue::new(name);
-        if help.is_empty() { value } else { value.help(help) }
-    };
-    PossibleValuesParser::new(values.map(value)).try_map(move |name| {
-        let found = values.into_iter().find(|(known, ..)| *known == name);
-        found.map(|(_, value, _)| value).ok_or("it is none of them")
-    })
+    NamedValues { values }
+}
+
+/// A parser of values by their names. A wrong one that is near a name, in any case of letters, gets that as a tip.
+#[derive(Clone)]
+struct NamedValues<T, const N: usize> {
+    values: [(&'static str, T, &'static str); N],
+}
+
+impl<T: Copy, const N: usize> NamedValues<T, N> {
+    fn shown(&self) -> [PossibleValue; N] {
+        std::array::from_fn(|i| {
+            let (name, _, help) = &self.values[i];
+            let value = PossibleValue::new(*name);
+            if help.is_empty() { value } else { value.help(*help) }
+        })
+    }
+}
+
+impl<T: Copy + Send + Sync + 'static, const N: usize> TypedValueParser for NamedValues<T, N> {
+    type Value = T;
+
+    fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<T, Error> {
+        let name = PossibleValuesParser::new(self.shown()).parse_ref(command, arg, value).map_err(|mut error| {
+            let meant = value.to_str().and_then(|name| nearest(name, self.values.iter().map(|(known, ..)| *known)));
+            if let Some(meant) = meant {
+                error.insert(ContextKind::SuggestedValue, ContextValue::String(meant.to_owned()));
+            }
+            error
+        })?;
+        let found = self.values.iter().find(|(known, ..)| *known == name);
+        found.map(|(_, value, _)| *value).ok_or_else(|| Error::new(ErrorKind::InvalidValue).with_cmd(command))
+    }
+
+    fn possible_values(&self) -> Option<Values> {
+        Some(Box::new(self.shown().into_iter()))
+    }
 }
 
 /// Reads the name of a checker.

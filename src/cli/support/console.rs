@@ -9,6 +9,7 @@ use std::sync::{Mutex, PoisonError};
 use indicatif::ProgressBar;
 use serde::Serialize;
 
+use super::gate::stdout_is_taken;
 use crate::cli::Failure;
 
 /// Standard output. A reader that has gone away is no error: further output is dropped, and the exit code is that of
@@ -28,12 +29,23 @@ impl Data {
 
     /// Writes a line for people, [spelled out](spelled_out) where it would steer a terminal.
     pub fn line(&mut self, line: impl Display) -> Result<(), Failure> {
-        self.text(&format!("{}\n", spelled_out(&line.to_string())))
+        self.report(&format!("{}\n", spelled_out(&line.to_string())))
     }
 
     /// Writes a line of data for other programs, as it is.
     pub fn data_line(&mut self, line: impl Display) -> Result<(), Failure> {
-        self.text(&format!("{line}\n"))
+        self.report(&format!("{line}\n"))
+    }
+
+    /// Writes lines of what came of the command. Where standard output takes a file, they are notes beside it.
+    fn report(&mut self, lines: &str) -> Result<(), Failure> {
+        if !stdout_is_taken() {
+            return self.text(lines);
+        }
+        if !is_quiet() {
+            let _ = above_bar(|| io::stderr().lock().write_all(lines.as_bytes()));
+        }
+        Ok(())
     }
 
     /// Writes a text as it is: whole lines, which on a terminal stand above the bar of [`show_bar`].

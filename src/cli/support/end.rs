@@ -87,10 +87,19 @@ impl Failure {
             }
             _ => "Name another file.",
         };
+        let folder = || file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let reason = match error.kind() {
+            io::ErrorKind::NotFound => format!("there is no folder {}", folder().display()),
+            io::ErrorKind::NotADirectory => format!("{} is no folder", folder().display()),
+            io::ErrorKind::PermissionDenied => "you may not write there".to_owned(),
+            io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+            io::ErrorKind::ReadOnlyFilesystem => "the disk can't be written to".to_owned(),
+            _ => error.to_string(),
+        };
         let older = if file.is_file() { "The older file of that name is as it was. " } else { "" };
         Failure::Output {
             file: file.display().to_string(),
-            reason: format!("it can't be written: {error}"),
+            reason: format!("it can't be written: {reason}"),
             next: format!("{older}{next}"),
         }
     }

@@ -5,6 +5,8 @@ use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use super::gate;
+pub use super::gate::{is_dash, shown};
 use super::progress::CommandProgress;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -19,16 +21,6 @@ pub const MAX_FOREIGN: u64 = 16 << 20;
 
 /// Least number of files of which the files done are counted; of fewer, the work on each is.
 const MANY: usize = 10;
-
-/// Whether a path is `-`, which names standard input or standard output.
-pub fn is_dash(path: &Path) -> bool {
-    path == Path::new("-")
-}
-
-/// An input's name for messages.
-pub fn shown(path: &Path) -> String {
-    if is_dash(path) { "standard input".to_owned() } else { path.display().to_string() }
-}
 
 /// The first `most` bytes of standard input. What was read is kept, so that a command may read `-` again.
 fn standard_input(most: u64) -> io::Result<Vec<u8>> {
@@ -67,6 +59,7 @@ pub fn read_bytes_if(path: &Path, limit: u64, may_be: impl FnOnce(&[u8]) -> bool
     let failed = |error: io::Error| unreadable(path, &error);
     let mut bytes = Vec::new();
     if is_dash(path) {
+        gate::read_stdin()?;
         bytes = standard_input(8).map_err(failed)?;
         if !may_be(&bytes) {
             return Ok(bytes);
@@ -137,10 +130,11 @@ pub fn title(file: &Path, several: bool, data: &mut Data) -> Result<(), Failure>
 /// The file, opened for reading; refused when it is a folder.
 pub fn open(path: &Path) -> Result<File, Failure> {
     let file = File::open(path).map_err(|error| unreadable(path, &error))?;
-    match file.metadata() {
-        Ok(about) if about.is_dir() => Err(unreadable(path, &ErrorKind::IsADirectory.into())),
-        _ => Ok(file),
+    if file.metadata().is_ok_and(|about| about.is_dir()) {
+        return Err(unreadable(path, &ErrorKind::IsADirectory.into()));
     }
+    gate::read(path, &file)?;
+    Ok(file)
 }
 
 /// The failure of a file that can't be read.

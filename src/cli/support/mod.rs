@@ -3,6 +3,7 @@
 pub(crate) mod choices;
 pub(crate) mod console;
 pub(crate) mod end;
+pub(crate) mod gate;
 pub(crate) mod input;
 pub(crate) mod interrupt;
 pub(crate) mod log_source;

@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use motion_lab::output;
 
-use crate::cli::Failure;
+use super::gate::{self, is_dash};
+use super::target::Target;
+use crate::cli::{Data, Failure};
 
 /// A file that is being written: see [`output::PendingFile`].
 pub struct ReportedFile {
@@ -14,15 +16,23 @@ pub struct ReportedFile {
 }
 
 impl ReportedFile {
-    /// Begins a file that will be at `path`.
-    pub fn create(path: &Path) -> Result<Self, Failure> {
+    /// Begins the file of a target.
+    pub fn create(target: &Target) -> Result<Self, Failure> {
+        let path = target.path();
         let file = output::PendingFile::create(path).map_err(|error| Failure::output(path, &error))?;
         Ok(ReportedFile { path: path.to_owned(), file })
     }
 
     /// Puts the file in its place.
     pub fn commit(self) -> Result<(), Failure> {
-        self.file.commit().map_err(|error| Failure::output(&self.path, &error))
+        self.file.commit().map_err(|error| Failure::output(&self.path, &error))?;
+        gate::written(&self.path);
+        Ok(())
+    }
+
+    /// Lets an end at once keep the file under this name, in the same folder, where there is none of this name.
+    pub fn keep_when_abandoned(&self, path: &Path) {
+        self.file.keep_when_abandoned(path);
     }
 
     /// Flushes everything written to the disk.
@@ -46,7 +56,18 @@ impl Write for ReportedFile {
     }
 }
 
-/// Writes a whole file.
-pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    output::write_file(path, bytes).map_err(|error| Failure::output(path, &error))
+/// Writes the whole file of a target.
+pub fn write_file(target: &Target, bytes: &[u8]) -> Result<(), Failure> {
+    let path = target.path();
+    output::write_file(path, bytes).map_err(|error| Failure::output(path, &error))?;
+    gate::written(path);
+    Ok(())
+}
+
+/// Writes a text to a file, and says so; to standard output when there is none.
+pub fn write_text(output: Option<&Path>, text: &str, data: &mut Data) -> Result<(), Failure> {
+    let Some(output) = output.filter(|output| !is_dash(output)) else { return data.text(text) };
+    let target = Target::of(output)?;
+    write_file(&target, text.as_bytes())?;
+    target.finish(data)
 }

@@ -7,6 +7,7 @@ use clap::Args;
 use motion_lab::capture::{self, CaptureError, CaptureForm, Captured, Paper};
 
 use super::choices;
+use super::target::Target;
 use crate::cli::Failure;
 
 /// The sheet of a picture.
@@ -37,8 +38,9 @@ fn parse_scale(text: &str) -> Result<f32, String> {
     }
 }
 
-/// Writes a picture to `path`.
-pub fn write_picture(captured: &Captured, paper: &Paper, form: CaptureForm, path: &Path) -> Result<(), Failure> {
+/// Writes a picture to its target.
+pub fn write_picture(captured: &Captured, paper: &Paper, form: CaptureForm, target: &Target) -> Result<(), Failure> {
+    let path = target.path();
     capture::write(captured, paper, form, path).map_err(|error| not_written(path, error))
 }
 

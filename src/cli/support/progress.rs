@@ -2,7 +2,6 @@
 
 use std::fmt;
 use std::io::{self, Write};
-use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
@@ -18,13 +17,13 @@ pub struct CommandProgress {
 impl CommandProgress {
     /// The beginning of `count` pieces of work called `what`: ticks, pictures, seeds.
     pub fn of(count: u64, what: &str) -> Self {
-        let template = format!("{{bar:40}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} left");
+        let template = format!("{{wide_bar}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} left");
         Self::begin(ProgressBar::with_draw_target(Some(count), target()), &template)
     }
 
     /// The beginning of reading `count` bytes.
     pub fn of_bytes(count: u64) -> Self {
-        let template = "{bar:40} {bytes} of {total_bytes}, {bytes_per_sec}, {eta} left";
+        let template = "{wide_bar} {bytes} of {total_bytes}, {bytes_per_sec}, {eta} left";
         Self::begin(ProgressBar::with_draw_target(Some(count), target()), template)
     }
 
@@ -36,7 +35,7 @@ impl CommandProgress {
 
     /// The beginning of `count` runs, `done` of which were made before and do not count for the rate.
     pub fn of_runs(count: u64, done: u64) -> Self {
-        let template = "{bar:40} {pos} of {len} runs, {rate}, {eta} left{msg}";
+        let template = "{wide_bar} {pos} of {len} runs, {rate}, {eta} left{msg}";
         let progress = Self::begin(ProgressBar::with_draw_target(Some(count), target()), template);
         progress.bar.set_position(done);
         progress.bar.reset_eta();
@@ -51,14 +50,6 @@ impl CommandProgress {
     /// The progress of work that nobody watches.
     pub fn none() -> Self {
         CommandProgress { bar: ProgressBar::hidden(), is_shown: false }
-    }
-
-    /// The beginning of work whose amount nobody knows, in words.
-    pub fn unknown(what: &str) -> Self {
-        let progress =
-            Self::begin(ProgressBar::with_draw_target(None, target()), &format!("{{spinner}} {what}, {{elapsed}}"));
-        progress.bar.enable_steady_tick(Duration::from_millis(200));
-        progress
     }
 
     fn begin(bar: ProgressBar, template: &str) -> Self {

@@ -1,7 +1,7 @@
 //! The summary of a run: its robots' last states, its worlds, its digest.
 
 use motion_lab::configuration::RobotKind;
-use motion_lab::export::JsonNumber;
+use motion_lab::export::{JsonNumber, json_seed};
 use motion_lab::recording::printed_configuration;
 use motion_lab::run::{Digest, Frame, Log, Recipe, Recorded, RobotState};
 use motion_lab::tour::TourConfig;
@@ -17,6 +17,7 @@ const MAX_PRINTED: usize = 100;
 #[derive(Debug, Serialize)]
 pub struct RunSummary<'a> {
     /// The seed.
+    #[serde(serialize_with = "json_seed")]
     pub seed: u64,
     /// The ticks configured.
     pub ticks: u64,

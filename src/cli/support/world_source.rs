@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use motion_lab::names::did_you_mean;
 use motion_lab::worlds::World;
 
 use super::input::{MAX_WORLD, is_dash, read_text_of, shown};
@@ -16,7 +17,11 @@ pub fn find_world(name: &str) -> Result<World, Failure> {
     if !path.exists() && !is_dash(&path) {
         return Err(Failure::input(
             format!("{name}: no built-in world has this name, and there is no such file"),
-            format!("The built-in worlds are {}; anything else is the path of a world file.", built_in_list()),
+            format!(
+                "{}The built-in worlds are {}; anything else is the path of a world file.",
+                did_you_mean(name, World::built_in_names()),
+                built_in_list()
+            ),
         ));
     }
     read_world(&path)

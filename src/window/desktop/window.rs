@@ -21,10 +21,10 @@ use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 #[non_exhaustive]
 pub enum WindowError {
     /// No display is set.
-    #[error("no display: neither DISPLAY nor WAYLAND_DISPLAY is set; without one, run `cargo run --features headless`")]
+    #[error("no display: neither DISPLAY nor WAYLAND_DISPLAY is set; `motion-lab --help` lists what needs none")]
     NoDisplay,
     /// The display or the graphics adapter did not answer.
-    #[error("no window could be opened ({0}); without one, run `cargo run --features headless`")]
+    #[error("no window could be opened ({0}); `motion-lab --help` lists what needs none")]
     NotOpened(String),
     /// The window was closed by an error.
     #[error("the window closed with code {0}")]
@@ -178,7 +178,7 @@ mod tests {
         let adapter = WindowError::NotOpened(said("Unable to find a GPU! Make sure.\nSee there"));
         for error in [WindowError::NoDisplay, adapter] {
             let line = error.to_string();
-            assert!(!line.contains('\n') && line.contains("cargo run --features headless"), "{line}");
+            assert!(!line.contains('\n') && line.contains("`motion-lab --help` lists"), "{line}");
         }
         assert_eq!(said("Unable to find a GPU! Make sure.\nSee there"), "Unable to find a GPU");
     }

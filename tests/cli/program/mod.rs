@@ -2,4 +2,5 @@
 
 pub mod habits;
 pub mod manual;
+mod messages;
 pub mod shells;

@@ -138,7 +138,7 @@ fn a_stop_leaves_nothing_that_is_of_no_use() {
     let begin = Instant::now();
     let stopped = interrupted(at, &["sweep", "plan.ron", "--estimate"], "-INT", || begin.elapsed().as_millis() > 700);
     assert_eq!(stopped.code, Some(75), "{}", stopped.err);
-    assert!(stopped.err.contains("stopped with 0 of 1 runs measured\nNothing is kept"), "{}", stopped.err);
+    assert!(stopped.err.contains("stopped with 0 of 1 run measured\nNothing is kept"), "{}", stopped.err);
     assert_eq!((stopped.out.as_str(), names(at)), ("", before));
 }
 

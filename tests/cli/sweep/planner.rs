@@ -164,7 +164,7 @@ fn a_planner_at_work_is_stopped() {
         begin.elapsed().as_millis() > 1000
     });
     assert_eq!(stopped.code, Some(75), "{}", stopped.err);
-    assert!(stopped.err.contains("stopped with 0 of 1 rows done\nThe same command goes on."), "{}", stopped.err);
+    assert!(stopped.err.contains("stopped with 0 of 1 row done\nThe same command goes on."), "{}", stopped.err);
 }
 
 #[test]

@@ -43,7 +43,7 @@ pub fn write_csv(log: &Log, ranges: bool, out: impl io::Write) -> Result<(), Exp
 pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl io::Write) -> Result<(), ExportError> {
     let head = CsvHead::of(log, kinds, ranges);
     writeln!(out, "{}", head.names())?;
-    let names: Vec<String> = log.recipe.config.robot_names().map(cell).collect();
+    let names: Vec<String> = log.recipe.config.robot_names().map(csv_cell).collect();
     let mut row = String::new();
     for frame in every_frame(log) {
         for (number, (name, robot)) in names.iter().zip(&frame.robots).enumerate() {
@@ -143,9 +143,15 @@ fn cells(numbers: impl Iterator<Item = Option<f64>>, row: &mut String) {
     }
 }
 
-/// A text as a cell: in quotes where it has to be.
-fn cell(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+/// A text as a cell: in quotes where it has to be, also for programs that take `;` or a tab for the comma.
+///
+/// A text that a spreadsheet would take for a formula, because it begins with `=`, `+`, `-`, `@`, a tab or a line end,
+/// gets an apostrophe before it.
+pub fn csv_cell(text: &str) -> String {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
+    let text = if is_formula { format!("'{text}") } else { text.to_owned() };
+    let has_signs = text.contains([',', ';', '\t', '"', '\n', '\r']);
+    if has_signs { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
 
 #[cfg(test)]
@@ -154,8 +160,21 @@ mod tests {
 
     #[test]
     fn cells_are_quoted_where_they_must_be() {
-        assert_eq!(cell("Rusty 2"), "Rusty 2");
-        assert_eq!(cell("a,b \"c\"\n"), "\"a,b \"\"c\"\"\n\"");
+        assert_eq!(csv_cell("Rusty 2"), "Rusty 2");
+        assert_eq!(csv_cell("a,b \"c\"\n"), "\"a,b \"\"c\"\"\n\"");
+        assert_eq!(csv_cell("x;y\\"), "\"x;y\\\"");
+    }
+
+    /// The signs by which spreadsheets know a formula, as OWASP's page on CSV injection lists them.
+    #[test]
+    fn a_text_that_a_spreadsheet_would_calculate_is_shown_as_text() {
+        assert_eq!(csv_cell("=1+1"), "'=1+1");
+        assert_eq!(csv_cell("=A1,B1"), "\"'=A1,B1\"");
+        assert_eq!(csv_cell("\t=1"), "\"'\t=1\"");
+        for begin in ["+", "-", "@"] {
+            assert_eq!(csv_cell(&format!("{begin}x")), format!("'{begin}x"));
+        }
+        assert_eq!((csv_cell("a=1"), csv_cell("")), ("a=1".into(), String::new()));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Numbers in JSON: shortest digits that read back to the same bits, infinity as a text.
+//! Numbers in JSON: shortest digits that read back to the same bits, infinity as a text; seeds of any size.
 
 use std::fmt;
 
@@ -62,9 +62,65 @@ impl Visitor<'_> for NumberText {
     }
 }
 
+/// The largest whole number up to which every one is a double of its own: 2^53.
+const MAX_EXACT: u64 = 1 << 53;
+
+/// Writes a seed for JSON: a number up to 2^53, and above that a text of its digits, because most programs read the
+/// numbers of JSON as doubles, which would make it another seed.
+///
+/// # Errors
+/// Those of the serializer.
+pub fn json_seed<S: Serializer>(seed: &u64, serializer: S) -> Result<S::Ok, S::Error> {
+    if *seed <= MAX_EXACT { serializer.serialize_u64(*seed) } else { serializer.collect_str(seed) }
+}
+
+/// Reads a seed as [`json_seed`] writes it.
+///
+/// # Errors
+/// Those of the deserializer, for what is neither a number nor the digits of one.
+pub fn read_json_seed<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u64, D::Error> {
+    deserializer.deserialize_any(SeedText)
+}
+
+/// Reads a number, or the text of its digits.
+struct SeedText;
+
+impl Visitor<'_> for SeedText {
+    type Value = u64;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "a seed: a whole number, or its digits as a text")
+    }
+
+    fn visit_u64<E: Error>(self, seed: u64) -> Result<u64, E> {
+        Ok(seed)
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<u64, E> {
+        text.parse().map_err(|_| E::invalid_value(serde::de::Unexpected::Str(text), &self))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// 2^53 + 1 is the first whole number that no double is: as one it would be 2^53.
+    #[test]
+    fn a_seed_that_no_double_is_is_a_text() {
+        #[derive(Serialize, Deserialize)]
+        struct Line(#[serde(serialize_with = "json_seed", deserialize_with = "read_json_seed")] u64);
+        let written = |seed| serde_json::to_string(&Line(seed)).unwrap();
+        for seed in [0, 1 << 53, (1 << 53) + 1, u64::MAX] {
+            assert_eq!(serde_json::from_str::<Line>(&written(seed)).unwrap().0, seed);
+        }
+        for wrong in ["\"-1\"", "\"\"", "1.5", "\"18446744073709551616\""] {
+            assert!(serde_json::from_str::<Line>(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!((written(0), written(9_007_199_254_740_992)), ("0".into(), "9007199254740992".into()));
+        assert_eq!(written(9_007_199_254_740_993), "\"9007199254740993\"");
+        assert_eq!(written(u64::MAX), "\"18446744073709551615\"");
+    }
 
     #[test]
     fn every_bit_survives_and_infinity_is_a_text() {

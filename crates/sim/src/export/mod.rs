@@ -27,8 +27,8 @@ mod foxglove;
 mod json_number;
 mod jsonl;
 
-pub use csv::{write_csv, write_csv_of_kinds};
+pub use csv::{csv_cell, write_csv, write_csv_of_kinds};
 pub use error::ExportError;
 pub use foxglove::{write_foxglove, write_foxglove_of_file, write_rerun, write_rerun_of_file};
-pub use json_number::JsonNumber;
+pub use json_number::{JsonNumber, json_seed, read_json_seed};
 pub use jsonl::{write_jsonl, write_jsonl_of_kinds};

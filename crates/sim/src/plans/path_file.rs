@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::attempt::{FileLeg, LegControl, PlanAttempt};
 use super::drawn::Drawn;
 use super::task::Task;
-use crate::export::JsonNumber;
+use crate::export::{JsonNumber, json_seed, read_json_seed};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, RobotKind};
 use motion_lab_core::planning::Effort;
 use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, Motion};
@@ -56,7 +56,7 @@ pub struct PathFile {
     robot: RobotLine,
     #[serde(default)]
     planner: String,
-    #[serde(default)]
+    #[serde(default, serialize_with = "json_seed", deserialize_with = "read_json_seed")]
     seed: u64,
     #[serde(default)]
     effort: Option<Counts>,

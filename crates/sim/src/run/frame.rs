@@ -34,7 +34,8 @@ pub struct RobotState {
     pub target: Coordinates,
     /// Whether a person drives, not the tour.
     pub manual: bool,
-    /// Whether the last tick was in contact.
+    /// Whether the last tick's motion met an obstacle, another robot or its own limit. A robot that is held before what
+    /// it meets does not touch it.
     pub in_contact: bool,
     /// Contact episodes since tick 0.
     pub contacts: u32,

@@ -273,7 +273,8 @@ impl<R: SimulatedRobot> Contacts<R> {
         Contacts { in_contact, episodes, flash, marker: std::marker::PhantomData }
     }
 
-    /// Whether the last tick was in contact.
+    /// Whether the last tick's motion met an obstacle, another robot or its own limit. A robot that is held before what
+    /// it meets does not touch it.
     pub fn in_contact(&self) -> bool {
         self.in_contact
     }

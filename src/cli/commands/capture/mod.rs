@@ -30,7 +30,7 @@ impl Capture {
         }
         let target = Target::of(&self.output)?;
         if of_run {
-            self.of_run(form, &paper, target.path())?;
+            self.of_run(form, &paper, &target)?;
         } else {
             let captured = match self.widget {
                 Widget::Atlas => widgets::atlas(&self.scene, &paper)?,
@@ -38,7 +38,7 @@ impl Capture {
                 // `plan` is not among the names: `motion-lab plan` draws its own
                 Widget::Anatomy | Widget::Dashboard | Widget::Plan => widgets::anatomy(&self.scene)?,
             };
-            write_picture(&captured, &paper, form, target.path())?;
+            write_picture(&captured, &paper, form, &target)?;
         }
         target.finish(data)?;
         Ok(Outcome::Done)

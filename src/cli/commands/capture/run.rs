@@ -1,8 +1,7 @@
 //! Widgets that show a run: at a tick, and over a span of them.
 
-use std::path::Path;
-
 use motion_lab::capture::{CaptureForm, CaptureSpan, Paper, Subject, at_tick_with_robots, film, write};
+use motion_lab::names::did_you_mean;
 use motion_lab::random::Seed;
 use motion_lab::recording::Run;
 use motion_lab::run::{Log, Script};
@@ -13,13 +12,15 @@ use crate::cli::commands::query::Chosen;
 use crate::cli::support::choices::KINDS;
 use crate::cli::support::log_source::{LogSource, read_full_log};
 use crate::cli::support::progress::CommandProgress;
+use crate::cli::support::target::Target;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, say};
 use motion_lab::manifest::Widget;
 
 impl Capture {
     /// Writes what the widget shows of the run.
-    pub(crate) fn of_run(&self, form: CaptureForm, paper: &Paper, output: &Path) -> Result<(), Failure> {
+    pub(crate) fn of_run(&self, form: CaptureForm, paper: &Paper, target: &Target) -> Result<(), Failure> {
+        let output = target.path();
         let log = log(&self.run)?;
         let subject = self.subject(&log)?;
         let last = log.ticks();
@@ -66,7 +67,8 @@ impl Capture {
 fn kind_of(name: &str, log: &Log) -> Result<String, Failure> {
     Chosen::kind(name).map(|kind| kind.kind_name().to_owned()).ok_or_else(|| {
         let there = log.recipe.config.robot_names().collect::<Vec<_>>().join(", ");
-        let next = format!("The kinds are {}; in this run are {there}.", KINDS.join(", "));
+        let meant = did_you_mean(name, log.recipe.config.robot_names().chain(KINDS));
+        let next = format!("{meant}The kinds are {}; in this run are {there}.", KINDS.join(", "));
         Failure::usage(format!("no robot is called {name:?}"), next)
     })
 }

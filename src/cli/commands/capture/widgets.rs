@@ -13,6 +13,7 @@ use crate::cli::Failure;
 use crate::cli::commands::query::Chosen;
 use crate::cli::support::choices::{CHOSET, NumberList};
 use crate::cli::support::progress::CommandProgress;
+use crate::cli::support::words::counted;
 use crate::cli::support::world_source::find_world;
 
 /// The query anatomy: the tab with a close view, or all four.
@@ -76,7 +77,7 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
 fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), Failure> {
     let usage = |reason: String| Failure::usage(reason, "See `motion-lab capture --help`.");
     let resident = atlas.robots().first().ok_or_else(|| usage("no robot of the lab's lives there".into()))?;
-    let wrong = || usage(format!("{} numbers: {} is at {}", to.len(), resident.name, resident.q));
+    let wrong = || usage(format!("{}: {} is at {}", counted(to.len(), "number"), resident.name, resident.q));
     let wanted = resident.q.with_coordinates(to).filter(|q| resident.robot.check(q).is_ok()).ok_or_else(wrong)?;
     Ok(match atlas.teleport(0, wanted) {
         Some(Err(refusal)) => {
@@ -106,7 +107,7 @@ fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
     }
     if let Some(step) = &args.step {
         if step.0.len() != anatomy.step().len() {
-            return Err(usage(&format!("{} numbers: the step has {}", step.0.len(), anatomy.step().len())));
+            return Err(usage(&format!("{}: the step has {}", counted(step.0.len(), "number"), anatomy.step().len())));
         }
         step.0.iter().enumerate().for_each(|(i, s)| anatomy.set_step(i, *s));
     }

@@ -7,6 +7,8 @@ use clap::{Args, Command};
 
 use crate::cli::support::console::note;
 use crate::cli::support::output::write_file;
+use crate::cli::support::target::Target;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
 use clap_mangen::Man;
 
@@ -31,7 +33,7 @@ impl ManPages {
             Some(folder) => {
                 fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
                 let pages = write_pages(&program, folder)?;
-                note(format!("wrote {pages} pages to {}", folder.display()));
+                note(format!("wrote {} to {}", counted(pages, "page"), folder.display()));
             }
         }
         Ok(Outcome::Done)
@@ -41,7 +43,7 @@ impl ManPages {
 /// Writes the page of a command and of each command below it; returns how many.
 fn write_pages(command: &Command, folder: &Path) -> Result<usize, Failure> {
     let name = command.get_display_name().unwrap_or(command.get_name());
-    write_file(&folder.join(format!("{name}.1")), page(command)?.as_bytes())?;
+    write_file(&Target::file(&folder.join(format!("{name}.1")))?, page(command)?.as_bytes())?;
     let mut pages = 1;
     for below in command.get_subcommands().filter(|c| c.get_name() != "help") {
         pages += write_pages(below, folder)?;

@@ -108,12 +108,12 @@ impl Export {
         let (file, log) = (&self.file, &log);
         let target = Target::of(output.unwrap_or(Path::new("-")))?;
         match (format, output) {
-            (ExportFormat::Foxglove | ExportFormat::Rerun, _) => viewer(format, file, log, target.path())?,
-            (ExportFormat::Png, _) => stills::png(&self.stills, file, log, target.path())?,
-            (ExportFormat::Gif, _) => stills::gif(&self.stills, file, log, target.path())?,
+            (ExportFormat::Foxglove | ExportFormat::Rerun, _) => viewer(format, file, log, &target)?,
+            (ExportFormat::Png, _) => stills::png(&self.stills, file, log, &target)?,
+            (ExportFormat::Gif, _) => stills::gif(&self.stills, file, log, &target)?,
             (format, output) => {
                 let is_terminal = data.is_terminal();
-                let mut sink = ExportSink::new(output, data)?;
+                let mut sink = ExportSink::new(output.map(|_| &target), data)?;
                 // a terminal that shows the lines needs no bar among them
                 let is_shown = output.is_none() && is_terminal;
                 let progress =
@@ -144,9 +144,10 @@ impl Export {
 }
 
 /// Writes the log that was read from `file` for a viewer.
-fn viewer(format: ExportFormat, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+fn viewer(format: ExportFormat, file: &Path, log: &Log, target: &Target) -> Result<(), Failure> {
+    let output = target.path();
     let bytes = read_bytes(file, MAX_LOG)?;
-    let mut pending = ReportedFile::create(output)?;
+    let mut pending = ReportedFile::create(target)?;
     let progress = CommandProgress::of(2 * (log.ticks() + 1), "frames, each drawn and written");
     let written = match format {
         ExportFormat::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),

@@ -1,11 +1,12 @@
 //! The target of an export: a file that is written whole or not at all, or standard output.
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use motion_lab::export::ExportError;
 
 use crate::cli::support::output::ReportedFile;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure};
 
 /// A file that is being written, or standard output.
@@ -17,10 +18,10 @@ pub enum ExportSink<'a> {
 }
 
 impl<'a> ExportSink<'a> {
-    /// The file at `output`; standard output when there is none.
-    pub fn new(output: Option<&Path>, data: &'a mut Data) -> Result<Self, Failure> {
-        Ok(match output {
-            Some(path) => ExportSink::File(path.to_owned(), ReportedFile::create(path)?),
+    /// The file of a target; standard output when there is none.
+    pub fn new(target: Option<&Target>, data: &'a mut Data) -> Result<Self, Failure> {
+        Ok(match target {
+            Some(target) => ExportSink::File(target.path().to_owned(), ReportedFile::create(target)?),
             None => ExportSink::Data(data),
         })
     }

@@ -10,6 +10,7 @@ use crate::cli::support::log_source::digest_of;
 use crate::cli::support::output::ReportedFile;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::show;
+use crate::cli::support::target::Target;
 use motion_lab::capture::{RunFigure, TICK_HUNDREDTHS, with_names};
 use motion_lab::picture::{Role, Sheet, Theme};
 use motion_lab::run::Log;
@@ -70,10 +71,11 @@ fn sheet_at(args: &StillArgs, width: u32, file: &Path, log: &Log, tick: u64) -> 
 }
 
 /// Writes a PNG of the run at one tick.
-pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+pub fn png(args: &StillArgs, file: &Path, log: &Log, target: &Target) -> Result<(), Failure> {
+    let output = target.path();
     let tick = args.tick.unwrap_or(log.ticks());
     let image = paint(&args.raster(), &sheet_at(args, SHEET, file, log, tick)?, None)?;
-    let mut pending = ReportedFile::create(output)?;
+    let mut pending = ReportedFile::create(target)?;
     let notes = [
         ("Software", format!("motion-lab {}", env!("CARGO_PKG_VERSION"))),
         ("Seed", log.recipe.seed.0.to_string()),
@@ -88,7 +90,8 @@ pub fn png(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
 }
 
 /// Writes a GIF of the run that plays at the speed of the run.
-pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<(), Failure> {
+pub fn gif(args: &StillArgs, file: &Path, log: &Log, target: &Target) -> Result<(), Failure> {
+    let output = target.path();
     let last = log.ticks();
     let (from, to) = (args.from, args.to.unwrap_or(last));
     if from > to || to > last {
@@ -98,7 +101,7 @@ pub fn gif(args: &StillArgs, file: &Path, log: &Log, output: &Path) -> Result<()
     let raster = args.raster();
     let comment = format!("motion-lab, seed {}, digest {}, ticks {from} to {to}", log.recipe.seed.0, digest_of(log)?);
     let hundredths = (TICK_HUNDREDTHS * args.every) as u16;
-    let mut pending = Some(ReportedFile::create(output)?);
+    let mut pending = Some(ReportedFile::create(target)?);
     let mut writer: Option<(GifWriter<ReportedFile>, u32)> = None;
     let wanted = |tick: u64| (from..=to).contains(&tick) && (tick - from).is_multiple_of(args.every);
     let progress = CommandProgress::of((to - from) / args.every + 1, "pictures");

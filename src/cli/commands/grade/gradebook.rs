@@ -1,8 +1,9 @@
 //! The grades as a table of comma-separated values, and as Gradescope's `results.json`.
 
-use std::borrow::Cow;
-
+use motion_lab::export::csv_cell;
 use serde::Serialize;
+
+use crate::cli::support::words::counted;
 
 use super::graded::{Graded, GradedCriterion, Tried, in_words, rounded};
 
@@ -24,23 +25,12 @@ pub fn row(graded: &Graded) -> String {
     let Graded { submission, points, max_points, seeds, refused, .. } = graded;
     format!(
         "{},{},{},{},{passed},{seeds},{attempt},{}",
-        cell(submission),
+        csv_cell(submission),
         graded.passed,
         rounded(points.0),
         rounded(max_points.0),
-        cell(refused.as_deref().unwrap_or_default())
+        csv_cell(refused.as_deref().unwrap_or_default())
     )
-}
-
-/// A text as a cell: in quotes where it has to be. One that a spreadsheet would take for a formula gets an apostrophe
-/// before it, because submissions are named by those who are graded.
-fn cell(text: &str) -> String {
-    let text = if text.starts_with(['=', '+', '-', '@', '\t', '\r']) {
-        Cow::Owned(format!("'{text}"))
-    } else {
-        Cow::Borrowed(text)
-    };
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into_owned() }
 }
 
 /// Gradescope's `results.json` of one submission, as its autograder specification documents it.
@@ -77,7 +67,7 @@ impl Results {
             score: criterion.points.0,
             max_score: criterion.max_points.0,
             status: if criterion.met == *seeds { "passed" } else { "failed" },
-            output: format!("met at {} of {seeds} seeds", criterion.met),
+            output: format!("met at {} of {}", criterion.met, counted(seeds, "seed")),
         };
         Results {
             score: graded.points.0,
@@ -126,12 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_are_quoted_and_are_never_formulas() {
-        assert_eq!(cell("anna.ron"), "anna.ron");
-        assert_eq!(cell("a,\"b\".ron"), "\"a,\"\"b\"\".ron\"");
-        assert_eq!(cell("=1+1.ron"), "'=1+1.ron");
-        assert_eq!(cell("=A1,B1"), "\"'=A1,B1\"");
-        assert_eq!((cell("-x"), cell("")), ("'-x".into(), String::new()));
+    fn points_have_two_decimals_at_most() {
         assert_eq!((rounded(2.0), rounded(20.0 / 3.0), rounded(0.0)), ("2".into(), "6.67".into(), "0".into()));
     }
 }

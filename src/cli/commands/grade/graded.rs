@@ -1,6 +1,6 @@
 //! A submission's grade, as JSON and as lines for people.
 
-use motion_lab::export::JsonNumber;
+use motion_lab::export::{JsonNumber, json_seed};
 use motion_lab::recording::{Assignment, Attempt, Criterion, Grade, Refusal};
 use serde::Serialize;
 
@@ -39,6 +39,7 @@ pub struct GradedCriterion {
 /// An attempt as JSON.
 #[derive(Serialize)]
 pub struct Tried {
+    #[serde(serialize_with = "json_seed")]
     pub seed: u64,
     pub verdict: String,
     #[serde(skip)]

@@ -1,7 +1,7 @@
 //! `PlanAnswer`, what came of planning.
 
 use motion_lab::capture::{proven, unit};
-use motion_lab::export::JsonNumber;
+use motion_lab::export::{JsonNumber, json_seed};
 use motion_lab::planning::{Effort, NoPath};
 use motion_lab::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
@@ -18,6 +18,7 @@ pub struct PlanAnswer {
     planner: String,
     robot: String,
     world: String,
+    #[serde(serialize_with = "json_seed")]
     seed: u64,
     effort: Option<Counts>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,10 +113,11 @@ impl PlanAnswer {
     pub fn print_run(&self, data: &mut Data) -> Result<(), Failure> {
         if let (Some(ticks), Some(strayed)) = (self.ticks, self.strayed) {
             let (seconds, strayed) = (motion_lab::run::seconds(ticks), 1000.0 * strayed.0);
-            data.line(format!("played     {ticks} ticks, {seconds} s, at most {strayed:.3} mm off the path"))?;
+            let ticks = counted(ticks, "tick");
+            data.line(format!("played     {ticks}, {seconds} s, at most {strayed:.3} mm off the path"))?;
         }
         if let (Some(contacts), Some(digest)) = (self.contacts, &self.digest) {
-            data.line(format!("recorded   {contacts} contacts, digest {digest}"))?;
+            data.line(format!("recorded   {}, digest {digest}", counted(contacts, "contact")))?;
         }
         Ok(())
     }
@@ -137,9 +139,8 @@ impl PlanAnswer {
             data.line(format!("exact      {exact}"))?;
         }
         if let Some(Counts { iterations, samples, edges, free }) = self.effort {
-            let count = |n: u64, what: &str| counted(usize::try_from(n).unwrap_or(usize::MAX), what);
-            let (rounds, draws) = (count(iterations, "iteration"), count(samples, "sample"));
-            let work = format!("{rounds}, {draws}, {} asked, {free} of them free", count(edges, "edge"));
+            let (rounds, draws) = (counted(iterations, "iteration"), counted(samples, "sample"));
+            let work = format!("{rounds}, {draws}, {} asked, {free} of them free", counted(edges, "edge"));
             data.line(format!("work       {work}, {:.1} ms", 1000.0 * seconds))?;
         }
         Ok(())

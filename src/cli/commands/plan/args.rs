@@ -2,9 +2,10 @@
 
 use super::task;
 use crate::cli::commands::record::SeedRange;
-use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, checker};
+use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, checker, form};
 use crate::cli::support::paper::PaperArgs;
 use clap::Args;
+use motion_lab::capture::CaptureForm;
 use motion_lab::plans::{CheckerName, PlannerName};
 use std::path::PathBuf;
 
@@ -16,7 +17,8 @@ use std::path::PathBuf;
 ///
 /// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
 /// the run in which the script plays it, with --svg to a picture, with --gif to a film of the planner's growth. What
-/// can't be played is refused when the script is made.
+/// can't be played is refused when the script is made. One of them may be `-`, standard output; what else is said then
+/// goes to standard error.
 ///
 /// With --checker parry the planner asks the book's black box instead. Nothing of its path is proven: it may lead
 /// through a wall, and can't be played.
@@ -76,6 +78,9 @@ pub struct PlanArgs {
     /// name ends so.
     #[arg(long, value_name = "FILE", conflicts_with = "compare")]
     pub(super) svg: Option<PathBuf>,
+    /// The form of the picture. [default: by its name; svg]
+    #[arg(long, requires = "svg", value_parser = form([CaptureForm::Svg, CaptureForm::Png]))]
+    pub(super) format: Option<CaptureForm>,
     /// Write how the planner grows, in the workspace and in the configuration space, to this file as GIF.
     #[arg(long, value_name = "FILE", conflicts_with = "compare")]
     pub(super) gif: Option<PathBuf>,

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 use std::time::Instant;
 
 use motion_lab::capture::{proven, unit};
-use motion_lab::export::JsonNumber;
+use motion_lab::configuration::{AnyConfiguration, Configuration as _};
+use motion_lab::export::{JsonNumber, csv_cell};
 use motion_lab::planning::{Effort, NoPath};
 use motion_lab::plans::{PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
@@ -12,7 +13,9 @@ use serde::Serialize;
 
 use super::answer::PlanAnswer;
 use super::args::PlanArgs;
+use super::rounds::solve;
 use crate::cli::commands::record::SeedRange;
+use crate::cli::support::interrupt;
 use crate::cli::support::output::write_file;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
@@ -52,11 +55,20 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
     let planners: Vec<_> = args.compare.iter().enumerate().filter(is_first).map(|(_, planner)| *planner).collect();
     let count = (seeds.end - seeds.first).saturating_mul(planners.len() as u64);
     let progress = CommandProgress::of(count, "attempts");
-    let mut rows = Vec::new();
-    for &planner in &planners {
+    interrupt::listen();
+    let (mut rows, mut is_stopped) = (Vec::new(), false);
+    'all: for &planner in &planners {
         for seed in seeds.first..seeds.end {
+            is_stopped = interrupt::asked_to_stop();
+            if is_stopped {
+                break 'all;
+            }
             match row(args, task, planner, seed)? {
-                Ok(row) => rows.push(row),
+                Ok(Some(row)) => rows.push(row),
+                Ok(None) => {
+                    is_stopped = true;
+                    break 'all;
+                }
                 // an end in contact is so for every planner and every seed
                 Err(reason) => {
                     drop(progress);
@@ -79,26 +91,31 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
         print(&lines, unit(&task.robot), data)?;
     }
     if let Some(target) = target {
-        write_file(target.path(), csv(&rows).as_bytes())?;
+        write_file(&target, csv(task, &rows).as_bytes())?;
         target.finish(data)?;
+    }
+    if is_stopped {
+        say(format!("stopped after {} of {count} attempts, which are kept", rows.len()));
+        return Ok(Outcome::Stopped);
     }
     Ok(if lines.iter().all(|line| line.solved == 0) { Outcome::NoPath } else { Outcome::Done })
 }
 
-fn row(args: &PlanArgs, task: &Task, planner: PlannerName, seed: u64) -> Result<Result<Row, NoPath>, Failure> {
+/// A row, or why there is no problem. `None` where somebody asked to stop.
+fn row(args: &PlanArgs, task: &Task, planner: PlannerName, seed: u64) -> Result<Result<Option<Row>, NoPath>, Failure> {
     let begun = Instant::now();
     let mut attempt = match super::task::attempt(task, planner, Seed(seed))? {
         Ok(attempt) => attempt,
         Err(reason @ NoPath::Problem(_)) => return Ok(Err(reason)),
         Err(reason) => {
             let (effort, path) = (Effort::default(), Err(reason.to_string()));
-            return Ok(Ok(Row { planner, seed, effort, seconds: 0.0, path }));
+            return Ok(Ok(Some(Row { planner, seed, effort, seconds: 0.0, path })));
         }
     };
-    let solved = attempt.solve(&args.bounds(planner));
+    let Some(solved) = solve(attempt.as_mut(), args.bound(planner), |_| {}) else { return Ok(Ok(None)) };
     let seconds = begun.elapsed().as_secs_f64();
     let path = solved.map(|()| attempt.lengths()).map_err(|reason| reason.to_string());
-    Ok(Ok(Row { planner, seed, effort: attempt.effort(), seconds, path }))
+    Ok(Ok(Some(Row { planner, seed, effort: attempt.effort(), seconds, path })))
 }
 
 /// The middle of some numbers; the mean of the two middle ones of an even count. `None` without any.
@@ -148,17 +165,24 @@ fn print(lines: &[PlannerMedians], unit: &str, data: &mut Data) -> Result<(), Fa
 }
 
 /// A row for each attempt; a path's columns are empty where there is none.
-fn csv(rows: &[Row]) -> String {
-    let mut text = String::from("planner,seed,solved,seconds,iterations,samples,edges,free,length,clearance,reason\n");
+fn csv(task: &Task, rows: &[Row]) -> String {
+    let head = "planner,seed,solved,time_s,iterations,samples,edges,free";
+    let mut text = format!("{head},length_{},clearance_m,reason,robot,world,start,goal\n", unit(&task.robot));
+    let numbers = |q: &AnyConfiguration| {
+        let numbers: Vec<String> = q.coordinates().iter().map(f64::to_string).collect();
+        format!("\"{}\"", numbers.join(","))
+    };
+    let (robot, world) = (csv_cell(&task.name), csv_cell(&task.world.name));
+    let problem = format!("{robot},{world},{},{}", numbers(&task.start), numbers(&task.goal));
     for Row { planner, seed, effort, seconds, path } in rows {
         let Effort { iterations, samples, edges, free } = effort;
         let name = planner.id();
         let (solved, length, clearance, reason) = match path {
             Ok(PathLengths { length, clearance }) => (true, length.to_string(), clearance.to_string(), String::new()),
-            Err(reason) => (false, String::new(), String::new(), format!("\"{}\"", reason.replace('"', "\"\""))),
+            Err(reason) => (false, String::new(), String::new(), csv_cell(reason)),
         };
         let counts = format!("{iterations},{samples},{edges},{free}");
-        _ = writeln!(text, "{name},{seed},{solved},{seconds},{counts},{length},{clearance},{reason}");
+        _ = writeln!(text, "{name},{seed},{solved},{seconds},{counts},{length},{clearance},{reason},{problem}");
     }
     text
 }

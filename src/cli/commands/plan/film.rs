@@ -1,6 +1,5 @@
 //! The film of a planner's growth: workspace and configuration space side by side, iteration after iteration.
 
-use std::path::Path;
 use std::sync::Arc;
 
 use motion_lab::capture::{Paper, PlanOutcome, slides};
@@ -33,9 +32,8 @@ pub fn write(
     seed: u64,
     iterations: u64,
     paper: &Paper,
-    output: &Path,
+    target: &Target,
 ) -> Result<(), Failure> {
-    let target = Target::file(output)?;
     let Ok(mut attempt) = attempt_by(task, name, Seed(seed))? else { return Ok(()) };
     let pictures = iterations.clamp(1, PICTURES);
     let progress = CommandProgress::of(pictures, "pictures");
@@ -54,7 +52,6 @@ pub fn write(
     drop(progress);
     let hundredths = (TIME / pictures).clamp(4, 50) as u16;
     slides(&captures, hundredths, paper, target.path()).map_err(|error| not_written(target.path(), error))?;
-    target.wrote();
     Ok(())
 }
 

@@ -9,22 +9,27 @@ mod drawing;
 mod exact;
 mod film;
 mod play;
+mod rounds;
+mod targets;
 mod task;
 
 use std::time::Instant;
 
-use motion_lab::planning::Bounds;
+use motion_lab::capture::{CaptureForm, PlanOutcome};
 use motion_lab::plans::{PathFile, PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
 use crate::cli::support::choices::NumberList;
 use crate::cli::support::output::write_file;
+use crate::cli::support::paper::write_picture;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 use advice::in_words;
 use answer::PlanAnswer;
 pub use args::PlanArgs;
+pub use rounds::solve;
+use targets::PlanTargets;
 
 impl PlanArgs {
     /// Runs the command.
@@ -42,29 +47,33 @@ impl PlanArgs {
         if !self.compare.is_empty() {
             return compare::compare(&self, &task, data);
         }
+        let targets = PlanTargets::of(&self)?;
         let name = self.planner.unwrap_or(PlannerName::default_for(&task.robot));
         let begun = Instant::now();
         let mut attempt = match task::attempt(&task, name, Seed(self.seed))? {
             Ok(attempt) => attempt,
             Err(reason) => return self.none(&PlanAnswer::of_none(&task, name, self.seed, &reason), data),
         };
-        let progress = CommandProgress::unknown("planning");
-        let solved = attempt.solve(&self.bounds(name));
+        let progress = CommandProgress::uncounted("iterations");
+        // Ctrl-C ends the process while nothing is written
+        let Some(solved) = solve(attempt.as_mut(), self.bound(name), |done| progress.at(done)) else {
+            return Ok(Outcome::Stopped);
+        };
         drop(progress);
         let seconds = begun.elapsed().as_secs_f64();
         match solved {
-            Ok(()) => self.solved(&task, name, attempt.as_ref(), seconds, data),
+            Ok(()) => self.solved(&task, name, attempt.as_ref(), seconds, targets, data),
             Err(reason) => {
                 let answer = PlanAnswer::of_none(&task, name, self.seed, &reason);
-                self.draw(&task, name, attempt.as_ref())?;
+                self.draw(&task, name, attempt.as_ref(), (targets.picture, targets.film), data)?;
                 self.none(&answer.after(attempt.effort()), data)
             }
         }
     }
 
-    /// How much a planner may do.
-    fn bounds(&self, planner: PlannerName) -> Bounds {
-        Bounds::of_iterations(self.iterations.unwrap_or(planner.iterations()))
+    /// The greatest number of iterations of a planner.
+    fn bound(&self, planner: PlannerName) -> u64 {
+        self.iterations.unwrap_or(planner.iterations())
     }
 
     /// Says that there is no path.
@@ -83,11 +92,13 @@ impl PlanArgs {
         name: PlannerName,
         attempt: &dyn PlanAttempt,
         seconds: f64,
+        targets: PlanTargets,
         data: &mut Data,
     ) -> Result<Outcome, Failure> {
+        let PlanTargets { path, script, record, picture, film } = targets;
         let mut answer = PlanAnswer::of_path(task, name, self.seed, attempt, seconds);
         // what can't be played is refused before anything is written
-        let played = if self.script.is_some() || self.record.is_some() {
+        let played = if script.is_some() || record.is_some() {
             match play::play(task, attempt, Seed(self.seed))? {
                 Ok(played) => Some(played),
                 Err(reason) => {
@@ -109,16 +120,15 @@ impl PlanArgs {
         } else if played.is_none() {
             data.json(&answer)?;
         }
-        if let Some(output) = &self.output {
-            let target = Target::of(output)?;
+        if let Some(target) = path {
             let file = PathFile::new(name.id(), self.seed, task, attempt, self.growth);
             let text = file.to_json().map_err(Failure::internal)?;
-            write_file(target.path(), text.as_bytes())?;
+            write_file(&target, text.as_bytes())?;
             target.finish(data)?;
         }
-        self.draw(task, name, attempt)?;
+        self.draw(task, name, attempt, (picture, film), data)?;
         if let Some(played) = &played {
-            played.write(self.script.as_deref(), self.record.as_deref(), &mut answer, data)?;
+            played.write(script, record, &mut answer, data)?;
             if self.json {
                 data.json(&answer)?;
             } else {
@@ -128,14 +138,30 @@ impl PlanArgs {
         Ok(Outcome::Done)
     }
 
-    fn draw(&self, task: &Task, name: PlannerName, attempt: &dyn PlanAttempt) -> Result<(), Failure> {
+    fn draw(
+        &self,
+        task: &Task,
+        name: PlannerName,
+        attempt: &dyn PlanAttempt,
+        (picture, film): (Option<Target>, Option<Target>),
+        data: &mut Data,
+    ) -> Result<(), Failure> {
         let paper = self.paper.paper();
-        if let Some(svg) = &self.svg {
-            drawing::write(task, name, self.seed, attempt, &paper, svg)?;
+        if let Some(target) = picture {
+            let captured = drawing::captured(task, name, self.seed, attempt, PlanOutcome::None, None);
+            write_picture(&captured, &paper, self.form(), &target)?;
+            target.finish(data)?;
         }
-        if let Some(gif) = &self.gif {
-            film::write(task, name, self.seed, attempt.effort().iterations, &paper, gif)?;
+        if let Some(target) = film {
+            film::write(task, name, self.seed, attempt.effort().iterations, &paper, &target)?;
+            target.finish(data)?;
         }
         Ok(())
+    }
+
+    /// The form of the picture: what was said, else what its name tells, else SVG.
+    fn form(&self) -> CaptureForm {
+        let of_name = || self.svg.as_deref().and_then(CaptureForm::of).filter(|form| *form == CaptureForm::Png);
+        self.format.or_else(of_name).unwrap_or(CaptureForm::Svg)
     }
 }

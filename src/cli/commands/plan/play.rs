@@ -1,7 +1,5 @@
 //! Playing a path: its script, and the log of the run that it drives.
 
-use std::path::Path;
-
 use motion_lab::export::JsonNumber;
 use motion_lab::plans::{PlanAttempt, Task};
 use motion_lab::random::Seed;
@@ -55,24 +53,22 @@ impl Played {
     /// Writes the script and the log, and puts what they are into the answer.
     pub fn write(
         &self,
-        script: Option<&Path>,
-        log: Option<&Path>,
+        script: Option<Target>,
+        log: Option<Target>,
         answer: &mut PlanAnswer,
         data: &mut Data,
     ) -> Result<(), Failure> {
         let Played { world, seed, played } = self;
         (answer.ticks, answer.strayed) = (Some(played.ticks), Some(JsonNumber(played.strayed)));
-        if let Some(path) = script {
-            let target = Target::of(path)?;
-            write_file(target.path(), played.script.to_ron().as_bytes())?;
+        if let Some(target) = script {
+            write_file(&target, played.script.to_ron().as_bytes())?;
             target.finish(data)?;
         }
-        if let Some(path) = log {
+        if let Some(target) = log {
             let config = TourConfig { worlds: vec![world.clone()], ticks: played.ticks + AFTER, sensor: None };
-            let target = Target::file(path)?;
             let recipe = Recipe::new(config, (*seed, played.script.clone()));
             let stop = StopRule { at_refusal: true, ..StopRule::default() };
-            match write_run(&recipe, LogKind::Frames, None, stop, path)? {
+            match write_run(&recipe, LogKind::Frames, None, stop, &target)? {
                 Ended::Whole { digest, last, .. } => {
                     let contacts: u32 = last.robots.iter().map(|robot| robot.contacts).sum();
                     (answer.contacts, answer.digest) = (Some(contacts), Some(digest.to_string()));

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use super::line::check_place;
 use super::question::Question;
+use crate::cli::support::words::counted;
 
 /// An answer; each kind is a JSON object of its own.
 #[derive(Debug, Serialize)]
@@ -111,7 +112,7 @@ pub fn ask_scan(
     let pose = match *q {
         [x, y] => Pose2::new(x, y, 0.0),
         [x, y, theta] => Pose2::new(x, y, theta),
-        _ => return Err(format!("{} numbers: a scan is from x, y or x, y, theta", q.len())),
+        _ => return Err(format!("{}: a scan is from x, y or x, y, theta", counted(q.len(), "number"))),
     };
     check_place(q)?;
     let ranges = match black_box {

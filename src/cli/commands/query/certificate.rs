@@ -1,7 +1,5 @@
 //! `EdgeCertificate`, the proof of an edge as JSON.
 
-use std::path::Path;
-
 use motion_lab::collision::{Certificate, Checker, Scene};
 use motion_lab::configuration::{AnyConfiguration, Configuration};
 use motion_lab::export::JsonNumber;
@@ -10,9 +8,9 @@ use serde::Serialize;
 
 use super::answer::{EdgeAnswer, edge, name, point};
 use super::dimensions::Dimensions;
-use crate::cli::Failure;
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
+use crate::cli::{Data, Failure};
 
 /// The version of the format. Readers refuse versions that they don't know.
 const VERSION: u32 = 1;
@@ -66,19 +64,17 @@ struct ChartLine {
 }
 
 impl EdgeCertificate {
-    /// Writes the certificate to a file, as one line of JSON, and says what it proves.
-    pub fn write(&self, path: &Path) -> Result<(), Failure> {
+    /// Writes the certificate to its target, as one line of JSON, and says what it proves.
+    pub fn write(&self, target: Target, data: &mut Data) -> Result<(), Failure> {
         let mut text = serde_json::to_string(self).map_err(Failure::internal)?;
         text.push('\n');
-        let target = Target::file(path)?;
-        write_file(path, text.as_bytes())?;
+        write_file(&target, text.as_bytes())?;
         let proven = match self.steps.len() {
             0 => "no step; nothing is proven".to_owned(),
             1 => format!("1 step, free to s = {}", self.proven_until.0),
             n => format!("{n} steps, free to s = {}", self.proven_until.0),
         };
-        target.wrote_with(&format!(": {proven}"));
-        Ok(())
+        target.finish_with(&format!(": {proven}"), data)
     }
 }
 

@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use motion_lab::collision::{Checker, Scene};
 use motion_lab::configuration::{AnyConfiguration, RobotKind};
+use motion_lab::names::did_you_mean;
 use motion_lab::robots::{AnyRobot, Reach};
 use motion_lab::worlds::{Resident, World};
 
 use super::line::{QuerySubject, check_place, finite};
 use crate::cli::Failure;
 use crate::cli::support::choices::{CHOSET, KINDS};
+use crate::cli::support::words::counted;
 use crate::cli::support::world_source::find_world;
 
 /// A robot that can be asked about: a resident, as its world says it is, or one of a kind's own sizes.
@@ -37,7 +39,12 @@ impl Chosen {
             let there = if names.is_empty() { "nobody".to_owned() } else { names.join(", ") };
             Failure::usage(
                 format!("no robot is called {name:?}"),
-                format!("The kinds are {}; in {} lives {there}.", KINDS.join(", "), world.name),
+                format!(
+                    "{}The kinds are {}; in {} lives {there}.",
+                    did_you_mean(name, names.into_iter().chain(KINDS)),
+                    KINDS.join(", "),
+                    world.name
+                ),
             )
         })
     }
@@ -100,7 +107,7 @@ impl Chosen {
         let numbers = if without_heading { &[numbers, &[0.0]].concat() } else { numbers };
         if about.space(numbers.len()).is_none() {
             let other = if *about == RobotKind::RUSTY { "two: x, y; or " } else { "" };
-            return Err(format!("{} numbers: a {} has {other}{}", numbers.len(), about.name, about.start));
+            return Err(format!("{}: a {} has {other}{}", counted(numbers.len(), "number"), about.name, about.start));
         }
         let check = if about.drives { check_place } else { finite };
         check(numbers)?;

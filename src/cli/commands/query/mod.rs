@@ -28,8 +28,10 @@ use line::{QuerySubject, parse_line};
 use lines::Lines;
 
 use crate::cli::support::choices::{self, KINDS, NumberList, RobotsAndKinds, WorldNames};
+use crate::cli::support::gate::read_stdin;
 use crate::cli::support::input::{is_dash, open, shown};
 use crate::cli::support::progress::{self, CommandProgress};
+use crate::cli::support::target::Target;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -116,15 +118,19 @@ impl Query {
                 let asked = QuerySubject { q, to: self.to.map(|NumberList(to)| to) };
                 let usage = |reason: String| Failure::usage(reason, "See `motion-lab query --help`.");
                 if let Some(path) = &self.certificate {
+                    let target = Target::of(path)?;
                     let certificate = desk.certify(&asked).map_err(usage)?;
-                    certificate.write(path)?;
+                    certificate.write(target, data)?;
                     data.json(&certificate.verdict)?;
                 } else {
                     data.json(&desk.answer(&asked).map_err(usage)?)?;
                 }
                 Ok(Outcome::Done)
             }
-            (None, Some(path)) if is_dash(path) => desk.answer_all(&shown(path), io::stdin(), None, data),
+            (None, Some(path)) if is_dash(path) => {
+                read_stdin()?;
+                desk.answer_all(&shown(path), io::stdin(), None, data)
+            }
             (None, Some(path)) => {
                 let file = open(path)?;
                 let length = file.metadata().ok().filter(Metadata::is_file).map(|about| about.len());

@@ -2,6 +2,7 @@
 
 use std::str::FromStr;
 
+use motion_lab::names::did_you_mean;
 use motion_lab::worlds::{Resident, World};
 
 use crate::cli::Failure;
@@ -53,7 +54,11 @@ pub fn choose(worlds: &mut [World], names: &[String], places: &[StartChoice]) ->
             let there: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).collect();
             return Err(Failure::usage(
                 format!("{option} {name}: no such robot lives in these worlds"),
-                format!("They have {}.", if there.is_empty() { "none".into() } else { there.join(", ") }),
+                format!(
+                    "{}They have {}.",
+                    did_you_mean(name, there.iter().copied()),
+                    if there.is_empty() { "none".into() } else { there.join(", ") }
+                ),
             ));
         }
     }

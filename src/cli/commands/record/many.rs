@@ -11,6 +11,7 @@ use super::written::RecordedLogs;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::summary::RunSummary;
 use crate::cli::support::target::Target;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 use motion_lab::random::Seed;
 use motion_lab::run::Recipe;
@@ -48,8 +49,8 @@ fn record_each(
             let recipe = Recipe { seed: Seed(seed), ..recipe.clone() };
             let log = output.as_ref().map(|template| template.replace("{seed}", &seed.to_string()));
             let ended = match log.as_deref().map(Path::new) {
-                Some(log) => Target::file(log).and_then(|target| {
-                    write_run(&recipe, kind, None, stop, log).map(|ended| (ended, Some(target.older())))
+                Some(log) => Target::log(log).and_then(|target| {
+                    write_run(&recipe, kind, None, stop, &target).map(|ended| (ended, Some(target.older())))
                 }),
                 None => run(&recipe, stop, |_| {}).map(|ended| (ended, None)),
             };
@@ -95,7 +96,7 @@ fn record_each(
         first = end;
     }
     if let Some((runs, count, event)) = refused {
-        say(format!("in {runs} runs {}", refused_in_words(count, &event)));
+        say(format!("in {} {}", counted(runs, "run"), refused_in_words(count, &event)));
     }
     Ok(Outcome::Done)
 }

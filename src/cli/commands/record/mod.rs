@@ -16,16 +16,17 @@ use motion_lab::tour::TourConfig;
 
 use crate::cli::support::console::note;
 use crate::cli::support::interrupt;
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome};
 
 use one::Printed;
-pub use one::{Ended, StopRule, partial_name, run, write_run, write_run_watched};
+pub use one::{Ended, StopRule, run, write_run, write_run_watched};
 pub use seeds::SeedRange;
 
 impl RecordArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        interrupt::listen()?;
+        interrupt::listen();
         if let Some(output) = self.output.as_ref().filter(|_| self.resume.is_none()) {
             resume::name_unfinished(output);
         }
@@ -39,7 +40,8 @@ impl RecordArgs {
             return many::record(&self, seeds, &recipe, data);
         }
         let kind = self.kind(&recipe.config);
-        one::record(&recipe, kind, None, self.output.as_deref(), self.stop(), self.printed(), data)
+        let target = self.output.as_deref().map(Target::log).transpose()?;
+        one::record(&recipe, kind, None, target.as_ref(), self.stop(), self.printed(), data)
     }
 
     /// What the log keeps. Where nobody said it, and it is not every frame, this is said.

@@ -1,7 +1,7 @@
 //! One run, tick by tick.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use motion_lab::run::{Comparison, DT, Digest, Frame, Log, LogError, LogKind, LogWriter, Recipe, RunDigest};
 use motion_lab::simulation::Refusals;
@@ -11,7 +11,7 @@ use crate::cli::support::output::ReportedFile;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::summary::RunSummary;
-use crate::cli::support::target::Target;
+use crate::cli::support::target::{Target, partial_name};
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Number of ticks in a second of simulated time.
@@ -177,7 +177,7 @@ impl<F: FnMut(&Frame)> FrameSink for Writing<'_, F> {
     }
 }
 
-/// Runs a recipe and writes its log to `output`.
+/// Runs a recipe and writes its log to its target.
 ///
 /// Where the run stops early or the disk takes no more, what was done is kept in the file that [`partial_name`] names,
 /// unless all of it is in `expected` already.
@@ -186,9 +186,9 @@ pub fn write_run(
     kind: LogKind,
     expected: Option<&Log>,
     stop: StopRule,
-    output: &Path,
+    target: &Target,
 ) -> Result<Ended, Failure> {
-    write_run_watched(recipe, kind, expected, stop, output, |_| {})
+    write_run_watched(recipe, kind, expected, stop, target, |_| {})
 }
 
 /// As [`write_run`], and calls `see` with every frame, that of tick 0 first.
@@ -197,11 +197,12 @@ pub fn write_run_watched(
     kind: LogKind,
     expected: Option<&Log>,
     stop: StopRule,
-    output: &Path,
+    target: &Target,
     see: impl FnMut(&Frame),
 ) -> Result<Ended, Failure> {
-    let file = Some(ReportedFile::create(output)?);
-    let mut writing = Writing { recipe, kind, output, file, writer: None, taken: 0, see };
+    let (output, file) = (target.path(), ReportedFile::create(target)?);
+    file.keep_when_abandoned(&partial_name(output));
+    let mut writing = Writing { recipe, kind, output, file: Some(file), writer: None, taken: 0, see };
     let ended = run_into(recipe, expected, stop, &mut writing);
     let Some(mut writer) = writing.writer.take() else { return ended };
     let before = expected.map_or(0, Log::ticks);
@@ -243,13 +244,6 @@ fn with_partial_output(file: ReportedFile, output: &Path, failure: Failure) -> F
     }
 }
 
-/// The name of a recording that stopped early: the output's name with `.partial` behind it.
-pub fn partial_name(output: &Path) -> PathBuf {
-    let mut name = output.as_os_str().to_owned();
-    name.push(".partial");
-    name.into()
-}
-
 /// `3 inputs of the script were refused, the first at tick 260: ...`.
 pub fn refused_in_words(count: u64, first: &str) -> String {
     match count {
@@ -274,14 +268,13 @@ pub fn record(
     recipe: &Recipe,
     kind: LogKind,
     expected: Option<&Log>,
-    output: Option<&Path>,
+    target: Option<&Target>,
     stop: StopRule,
     form: Printed,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
-    let target = output.map(Target::file).transpose()?;
-    let ended = match output {
-        Some(output) => write_run(recipe, kind, expected, stop, output)?,
+    let ended = match target {
+        Some(target) => write_run(recipe, kind, expected, stop, target)?,
         None => run(recipe, stop, |_| {})?,
     };
     match ended {
@@ -307,7 +300,7 @@ pub fn record(
         }
         Ended::Stopped(tick) => {
             let ticks = recipe.config.ticks;
-            match output.map(partial_name) {
+            match target.map(|target| partial_name(target.path())) {
                 Some(kept) => say(format!(
                     "stopped after tick {tick} of {ticks}\nIt is kept; go on with: motion-lab record --resume {}",
                     kept.display()

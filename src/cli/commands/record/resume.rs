@@ -8,6 +8,7 @@ use motion_lab::output::{is_left, is_temporary, unfinished, whole_name};
 use super::one::{Printed, StopRule, record};
 use crate::cli::support::input::read_bytes_if;
 use crate::cli::support::log_source::{begins_as_one, read_log};
+use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Largest number of files left by killed processes that are named.
@@ -42,7 +43,8 @@ pub fn resume(
     if source.damage.is_none() {
         say(format!("{} is whole already; it is run again all the same", file.display()));
     }
-    let outcome = record(&log.recipe, log.kind(), Some(&log), Some(output), stop, form, data)?;
+    let target = Target::resumed(output, file)?;
+    let outcome = record(&log.recipe, log.kind(), Some(&log), Some(&target), stop, form, data)?;
     if outcome == Outcome::Done && Some(output) == whole_name.as_deref() {
         // all of it is in the output now
         let _ = fs::remove_file(file);

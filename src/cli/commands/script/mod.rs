@@ -13,7 +13,7 @@ use serde::Serialize;
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::{for_each_file, read_bytes_if, read_text};
 use crate::cli::support::log_source::read_log;
-use crate::cli::support::target::write_text;
+use crate::cli::support::output::write_text;
 use crate::cli::support::words::{changes_in_words, counted, none, parse_script, unfit};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Data, Failure, Outcome, say};

@@ -4,12 +4,13 @@ use std::fs;
 use std::time::Instant;
 
 use motion_lab::batch::{Shard, Study};
-use tempfile::TempDir;
+use motion_lab::output::PassingFolder;
 
 use super::keep::Keep;
 use super::one::{self, Ran};
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::CommandProgress;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Most runs that are measured.
@@ -27,8 +28,8 @@ pub fn estimate(
     keep: Keep,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
-    interrupt::listen()?;
-    let folder = TempDir::new().map_err(|error| Failure::output(&std::env::temp_dir(), &error))?;
+    interrupt::listen();
+    let folder = PassingFolder::new().map_err(|error| Failure::output(&std::env::temp_dir(), &error))?;
     let (rows, jobs) = (shard.rows(study.runs()), super::shard::pool(jobs)?.current_num_threads());
     let runs = rows.end - rows.start;
     if runs == 0 {
@@ -44,7 +45,10 @@ pub fn estimate(
         let row = rows.start + (i * 2_654_435_761) % samples * runs / samples;
         let Ran::Row(row) = one::run(study, row, keep, folder.path())? else {
             drop(progress);
-            say(format!("stopped with {measured} of {samples} runs measured\nNothing is kept; start again."));
+            say(format!(
+                "stopped with {measured} of {} measured\nNothing is kept; start again.",
+                counted(samples, "run")
+            ));
             return Ok(Outcome::Stopped);
         };
         let log = one::log_name(folder.path(), row.row);
@@ -61,13 +65,13 @@ pub fn estimate(
     let one = begin.elapsed().as_secs_f64() / measured as f64;
     let all = one * runs as f64;
     let of_all = |bytes: u64| bytes as f64 / measured as f64 * runs as f64;
-    data.line(format!("{runs} runs, {measured} of them measured: {:.2} ms each", 1e3 * one))?;
+    data.line(format!("{}, {measured} of them measured: {:.2} ms each", counted(runs, "run"), 1e3 * one))?;
     data.line(format!("{all:.0} s of one processor, {:.0} s with {jobs} jobs", all / jobs as f64))?;
     let logs = if keep == Keep::None { String::new() } else { format!(", and {:.0} bytes of logs", of_all(logs)) };
     data.line(format!("{:.0} bytes of rows{logs}", of_all(bytes)))?;
     let shards = (one * study.runs() as f64 / SHARD).ceil();
     let name = if shards == 1.0 { "shard" } else { "shards" };
-    let of = if shard == Shard::WHOLE { String::new() } else { format!(" of all {} runs", study.runs()) };
+    let of = if shard == Shard::WHOLE { String::new() } else { format!(" of all {}", counted(study.runs(), "run")) };
     data.line(format!("{shards:.0} {name}{of} of ten minutes with one job each"))?;
     Ok(Outcome::Done)
 }

@@ -9,6 +9,7 @@ use motion_lab::batch::{Column, PartHead, PartWriter, sealed_line, unsealed_line
 
 use crate::cli::Failure;
 use crate::cli::support::output::ReportedFile;
+use crate::cli::support::target::Target;
 
 /// The journal of a shard. A row that it holds need not be run again, also after a crash.
 pub struct Journal {
@@ -123,8 +124,8 @@ impl Journal {
     }
 
     /// Writes the part, whole or not at all, and takes the journal away. All rows must be there.
-    pub fn finish(self, part: &Path, columns: &[Column]) -> Result<(), Failure> {
-        let failed = |error: io::Error| Failure::output(part, &error);
+    pub fn finish(self, part: &Target, columns: &[Column]) -> Result<(), Failure> {
+        let failed = |error: io::Error| Failure::output(part.path(), &error);
         if self.places.contains(&0) {
             return Err(failed(ErrorKind::UnexpectedEof.into()));
         }
@@ -175,7 +176,8 @@ mod tests {
         let held = open().unwrap();
         let second = open().err().map(|failure| failure.to_string()).unwrap_or_default();
         assert!(second.contains("another process is at work"), "{second}");
-        held.finish(&folder.path().join("part.sweep"), study.columns()).unwrap();
+        let part = Target::of(&folder.path().join("part.sweep")).unwrap();
+        held.finish(&part, study.columns()).unwrap();
         assert!(!path.exists() && folder.path().join("part.sweep").exists());
     }
 }

@@ -5,13 +5,14 @@ use std::io::{BufReader, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use motion_lab::batch::{PartError, PartReader, RunRow, Study, TableError, TableWriter};
 
-use crate::cli::support::input::{open, unreadable};
+use crate::cli::support::input::{is_dash, open, unreadable};
 use crate::cli::support::output::ReportedFile;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
 
 /// Make one table of a sweep's parts, if they hold every row.
@@ -27,9 +28,40 @@ pub struct Merge {
     /// Parts, or folders of parts.
     #[arg(required = true, value_name = "PART|FOLDER")]
     parts: Vec<PathBuf>,
-    /// The table to write: .parquet, which holds its study and units, or .csv. May be given for each.
+    /// The table to write: .parquet, which holds its study and units, or .csv; `-` is standard output. May be given for
+    /// each.
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
+    /// The form. [default: by the output's name; csv for `-`]
+    #[arg(long, requires = "output")]
+    format: Option<TableForm>,
+}
+
+/// The form of a table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum TableForm {
+    /// Comma-separated values.
+    Csv,
+    /// A Parquet file, with its study and units.
+    Parquet,
+}
+
+impl TableForm {
+    /// The form `said`, else the one that a file's name tells, else CSV for standard output.
+    fn of(path: &Path, said: Option<TableForm>) -> Result<TableForm, Failure> {
+        let named = match path.extension().and_then(|ending| ending.to_str()) {
+            Some("csv") => Some(TableForm::Csv),
+            Some("parquet") => Some(TableForm::Parquet),
+            _ => None,
+        };
+        let piped = || is_dash(path).then_some(TableForm::Csv);
+        said.or(named).or_else(piped).ok_or_else(|| {
+            Failure::usage(
+                format!("{}: no table has this ending", path.display()),
+                "Name a file that ends in .parquet or .csv, or say --format.",
+            )
+        })
+    }
 }
 
 /// The failure of a part that can't be read.
@@ -98,27 +130,26 @@ enum Output {
 }
 
 impl Output {
-    fn begin(path: &Path, study: &Study) -> Result<Self, Failure> {
-        match path.extension().and_then(|ending| ending.to_str()) {
-            Some("csv") => {
-                let mut file = ReportedFile::create(path)?;
-                writeln!(file, "{}", study.heading()).map_err(|error| Failure::output(path, &error))?;
+    fn begin(target: &Target, form: TableForm, study: &Study) -> Result<Self, Failure> {
+        let path = target.path();
+        match form {
+            TableForm::Csv => {
+                let mut file = ReportedFile::create(target)?;
+                writeln!(file, "{}", study.table_heading()).map_err(|error| Failure::output(path, &error))?;
                 Ok(Output::Csv(file, path.to_owned()))
             }
-            Some("parquet") => {
-                let table = TableWriter::new(ReportedFile::create(path)?, study);
+            TableForm::Parquet => {
+                let table = TableWriter::new(ReportedFile::create(target)?, study);
                 Ok(Output::Parquet(Box::new(table.map_err(|error| unwritten(path, error))?), path.to_owned()))
             }
-            _ => Err(Failure::usage(
-                format!("{}: no table has this ending", path.display()),
-                "Name a file that ends in .parquet or .csv.",
-            )),
         }
     }
 
-    fn row(&mut self, row: &RunRow, line: &str) -> Result<(), Failure> {
+    fn row(&mut self, row: &RunRow) -> Result<(), Failure> {
         match self {
-            Output::Csv(file, path) => writeln!(file, "{line}").map_err(|error| Failure::output(path, &error)),
+            Output::Csv(file, path) => {
+                writeln!(file, "{}", row.to_table_line()).map_err(|error| Failure::output(path, &error))
+            }
             Output::Parquet(table, path) => table.row(row.clone()).map_err(|error| unwritten(path, error)),
         }
     }
@@ -166,9 +197,10 @@ impl Merge {
             return Err(Failure::input("there are no parts", "Name parts, or folders with files that end in .sweep."));
         };
         parts.sort_by(|(a, pa), (b, pb)| (a.start, b.end, pa).cmp(&(b.start, a.end, pb)));
-        check_outputs(&self.output)?;
-        let targets = self.output.iter().map(|path| Target::file(path)).collect::<Result<Vec<_>, _>>()?;
-        let mut outputs = self.output.iter().map(|path| Output::begin(path, &study)).collect::<Result<Vec<_>, _>>()?;
+        let forms = self.output.iter().map(|path| TableForm::of(path, self.format)).collect::<Result<Vec<_>, _>>()?;
+        let targets = self.output.iter().map(|path| Target::of(path)).collect::<Result<Vec<_>, _>>()?;
+        let outputs = targets.iter().zip(forms).map(|(target, form)| Output::begin(target, form, &study));
+        let mut outputs = outputs.collect::<Result<Vec<_>, _>>()?;
         let progress = CommandProgress::of(study.runs(), "rows");
         let mut waiting = parts.into_iter().peekable();
         let mut at_work: Vec<OpenedPart> = Vec::new();
@@ -200,9 +232,9 @@ impl Merge {
                     Some(range) if range.end == next => range.end += 1,
                     _ => missing.push(next..next + 1),
                 },
-                Some((row, line, _)) => {
+                Some((row, ..)) => {
                     failures += u64::from(row.is_failure(study.columns()));
-                    outputs.iter_mut().try_for_each(|output| output.row(&row, &line))?;
+                    outputs.iter_mut().try_for_each(|output| output.row(&row))?;
                 }
             }
             progress.at(next + 1);
@@ -213,30 +245,17 @@ impl Merge {
             data.flush()?;
             let count: u64 = missing.iter().map(|range| range.end - range.start).sum();
             return Err(Failure::input(
-                format!("{count} of {} rows are missing: the ranges above, without their ends", study.runs()),
+                format!(
+                    "{count} of {} are missing: the ranges above, without their ends",
+                    counted(study.runs(), "row")
+                ),
                 "Run the shards that are not finished; nothing was written.",
             ));
         }
-        data.line(format!("{} rows, {failures} failed, study {}", study.runs(), study.digest()))?;
+        let rows = counted(study.runs(), "row");
+        data.line(format!("{rows}, {failures} failed, study {}", study.digest()))?;
         outputs.into_iter().try_for_each(Output::finish)?;
-        targets.iter().for_each(Target::wrote);
+        targets.into_iter().try_for_each(|target| target.finish(data))?;
         Ok(Outcome::Done)
-    }
-}
-
-/// Checks that no two outputs are one file, of which only the last would stay.
-fn check_outputs(outputs: &[PathBuf]) -> Result<(), Failure> {
-    let real = |path: &PathBuf| {
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        fs::canonicalize(folder)
-            .map_or_else(|_| path.clone(), |folder| folder.join(path.file_name().unwrap_or_default()))
-    };
-    let files: Vec<PathBuf> = outputs.iter().map(real).collect();
-    match (1..files.len()).find(|i| files[..*i].contains(&files[*i])) {
-        Some(i) => Err(Failure::usage(
-            format!("{}: it is named twice", outputs[i].display()),
-            "Give each -o a file of its own.",
-        )),
-        None => Ok(()),
     }
 }

@@ -9,7 +9,8 @@ use motion_lab::run::LogKind;
 use super::keep::Keep;
 use super::planned::{PlannedInputs, made};
 use crate::cli::Failure;
-use crate::cli::commands::record::{self, Ended, StopRule, partial_name, write_run, write_run_watched};
+use crate::cli::commands::record::{self, Ended, StopRule, write_run, write_run_watched};
+use crate::cli::support::target::{Target, partial_name};
 
 /// How a run of a sweep ended.
 pub enum Ran {
@@ -47,7 +48,9 @@ pub fn run(study: &Study, row: u64, keep: Keep, logs: &Path) -> Result<Ran, Fail
     let log = log_name(logs, row);
     let mut gatherer = RowGatherer::new(study, row, &run.config, &run.script);
     let ended = match keep {
-        Keep::All => write_run_watched(&run, LogKind::Frames, None, STOP, &log, |frame| gatherer.see(frame)),
+        Keep::All => Target::log(&log).and_then(|target| {
+            write_run_watched(&run, LogKind::Frames, None, STOP, &target, |frame| gatherer.see(frame))
+        }),
         _ => record::run(&run, STOP, |frame| gatherer.see(frame)),
     };
     let row = match ended {
@@ -75,7 +78,7 @@ pub fn log_again(study: &Study, row: u64, logs: &Path) -> Result<bool, Failure> 
         PlannedInputs::None(..) => return Ok(true),
         PlannedInputs::Stopped => return Ok(false),
     };
-    let is_whole = matches!(write_run(&run, LogKind::Frames, None, STOP, &log)?, Ended::Whole { .. });
+    let is_whole = matches!(write_run(&run, LogKind::Frames, None, STOP, &Target::log(&log)?)?, Ended::Whole { .. });
     if !is_whole {
         remove_partial(&log);
     }

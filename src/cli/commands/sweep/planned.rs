@@ -1,18 +1,17 @@
 //! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
 
 use motion_lab::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunSetup};
-use motion_lab::planning::{Bounds, Effort, NoPath};
-use motion_lab::plans::{PathLengths, PlanAttempt, PlannerName, Task};
+use motion_lab::configuration::RobotKind;
+use motion_lab::names::nearest;
+use motion_lab::planning::{Effort, NoPath};
+use motion_lab::plans::{PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
 use motion_lab::robots::AnyRobot;
 use motion_lab::run::{Recipe, Script, seconds};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::World;
 
-use crate::cli::support::interrupt;
-
-/// The iterations after which a planner is asked whether to stop.
-const ROUND: u64 = 500;
+use crate::cli::commands::plan::solve;
 
 /// What became of a run's inputs.
 pub enum PlannedInputs {
@@ -72,10 +71,10 @@ fn planned_script(
     let world = world.ok_or_else(|| "no robot takes part in this run".to_owned())?;
     let (task, name) = task(world, planning)?;
     let mut attempt = task.attempt(name, seed)?;
-    let solved = solve(attempt.as_mut(), planning.iterations.unwrap_or(name.iterations()));
+    let solved = solve(attempt.as_mut(), planning.iterations.unwrap_or(name.iterations()), |_| {});
     let Effort { iterations, edges, .. } = attempt.effort();
     *planned = PlanningResult { iterations, edges, path: None };
-    solved?;
+    solved.ok_or(Why::Stopped)??;
     let PathLengths { length, clearance } = attempt.lengths();
     let path = PlannedPath { length, clearance, time: None };
     planned.path = Some(path);
@@ -91,7 +90,10 @@ fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), Strin
     let resident = &world.robots[0];
     let at = |q: &[f64]| {
         let placed = AnyRobot::sized(&resident.kind, q, resident.sizes.as_ref());
-        placed.ok_or_else(|| format!("{q:?} is no configuration of {}, a {}", resident.name, resident.kind))
+        placed.ok_or_else(|| {
+            let has = RobotKind::of(&resident.kind).map_or(String::new(), |kind| format!(", which has {}", kind.start));
+            format!("{q:?} is no configuration of {}, a {}{has}", resident.name, resident.kind)
+        })
     };
     let ((robot, start), (other, goal)) = (at(&resident.start)?, at(&planning.goal)?);
     if other != robot {
@@ -109,22 +111,7 @@ fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), Strin
 pub fn named(name: &str) -> Result<PlannerName, String> {
     PlannerName::of(name).ok_or_else(|| {
         let names = PlannerName::ALL.map(PlannerName::id);
-        format!("there is no planner {name:?}; there are {}", names.join(", "))
+        let meant = nearest(name, names).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+        format!("there is no planner {name:?}; there are {}{meant}", names.join(", "))
     })
-}
-
-/// Works on a path until it is there, there will be none, or somebody asks to stop.
-fn solve(attempt: &mut dyn PlanAttempt, iterations: u64) -> Result<(), Why> {
-    let mut bound = 0;
-    loop {
-        bound = iterations.min(bound + ROUND);
-        match attempt.solve(&Bounds::of_iterations(bound)) {
-            Err(NoPath::Exhausted { .. }) if bound < iterations => {
-                if interrupt::asked_to_stop() {
-                    return Err(Why::Stopped);
-                }
-            }
-            solved => return solved.map_err(Why::from),
-        }
-    }
 }

@@ -4,16 +4,16 @@ use motion_lab::picture::Theme;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use motion_lab::batch::{CellKind, Column, RowValue, RunInputs, RunRow, Study, TableError, TableFile};
 use motion_lab::capture::{Captured, Distribution, Paper, histograms};
 use motion_lab::run::Recipe;
 use motion_lab::web::Link;
 
 use crate::cli::support::choices;
-use crate::cli::support::input::open;
-use crate::cli::support::output::write_file;
-use crate::cli::support::target::Target;
+use crate::cli::support::input::{is_dash, open};
+use crate::cli::support::output::write_text;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
 
 /// Show what became of a sweep's runs: distributions, the worst runs, the failures.
@@ -29,9 +29,12 @@ pub struct Report {
     /// The table that `sweep merge` wrote, .parquet.
     #[arg(value_name = "TABLE")]
     table: PathBuf,
-    /// The page (.html) or figure (.svg) to write.
+    /// The page (.html) or figure (.svg) to write. `-` is standard output.
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
+    /// The form. [default: by the output's name; html for `-`]
+    #[arg(long)]
+    format: Option<PageForm>,
     /// The address of the lab's page, for links: where `assets/web/build` was put. By default where `assets/web/serve`
     /// shows it.
     #[arg(long, value_name = "URL", default_value = "http://localhost:8000/", value_parser = page_address)]
@@ -39,6 +42,15 @@ pub struct Report {
     /// The colours of the figure.
     #[arg(long, value_parser = choices::theme(), default_value = "light")]
     theme: Theme,
+}
+
+/// The form of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PageForm {
+    /// A page.
+    Html,
+    /// A figure.
+    Svg,
 }
 
 /// Runs that are listed of each sort.
@@ -177,20 +189,20 @@ impl Gathered {
 
     fn figure(&self) -> Captured {
         let digest = self.study.digest().to_string();
-        histograms(&format!("{} runs of a sweep", self.rows), &self.distributions, vec![("Study", digest)])
+        histograms(&format!("{} of a sweep", counted(self.rows, "run")), &self.distributions, vec![("Study", digest)])
     }
 
     /// The page. It has no colours of its own but those of its figure.
     fn page(&self, file: &Path, figure: &str, site: &str) -> String {
         let Gathered { study, rows, failed, worst, failures, .. } = self;
-        let name = escaped(&file.display().to_string());
+        let (name, runs) = (escaped(&file.display().to_string()), counted(rows, "run"));
         let mut page = format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}: {rows} runs</title>\n\
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}: {runs}</title>\n\
              <meta name=\"viewport\" content=\"width=device-width\">\n<style>\n\
              :root {{ color-scheme: light dark; font-family: sans-serif; }}\nbody {{ margin: 1rem auto; max-width: 80rem; }}\n\
              svg {{ max-width: 100%; height: auto; }}\n.wide {{ overflow-x: auto; }}\n\
              td, th {{ padding: 0.2rem 0.6rem; text-align: left; vertical-align: top; }}\n</style>\n</head>\n<body>\n\
-             <h1>{name}</h1>\n<p>{rows} runs, {failed} of them failed. Study {}.</p>\n",
+             <h1>{name}</h1>\n<p>{runs}, {failed} of them failed. Study {}.</p>\n",
             study.digest()
         );
         let axes = study.axes().map(|(axis, len)| match len {
@@ -269,20 +281,30 @@ fn escaped(text: &str) -> String {
 impl Report {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        let ending = self.output.extension().and_then(|ending| ending.to_str());
-        if !matches!(ending, Some("html" | "svg")) {
-            return Err(Failure::usage(
-                format!("{}: no report has this ending", self.output.display()),
-                "Name a file that ends in .html or .svg.",
-            ));
-        }
+        let form = self.form()?;
         let gathered = Gathered::of(&self.table)?;
         let paper = Paper { palette: self.theme.palette(), width: 1280, scale: 1.0 };
         let figure = gathered.figure().svg(&paper);
-        let text = if ending == Some("svg") { figure } else { gathered.page(&self.table, &figure, &self.site) };
-        let target = Target::of(&self.output)?;
-        write_file(target.path(), text.as_bytes())?;
-        target.finish(data)?;
+        let text = match form {
+            PageForm::Svg => figure,
+            PageForm::Html => gathered.page(&self.table, &figure, &self.site),
+        };
+        write_text(Some(&self.output), &text, data)?;
         Ok(Outcome::Done)
+    }
+
+    /// The form: what was said, else what the output's name tells, else a page for standard output.
+    fn form(&self) -> Result<PageForm, Failure> {
+        let named = match self.output.extension().and_then(|ending| ending.to_str()) {
+            Some("html") => Some(PageForm::Html),
+            Some("svg") => Some(PageForm::Svg),
+            _ => is_dash(&self.output).then_some(PageForm::Html),
+        };
+        self.format.or(named).ok_or_else(|| {
+            Failure::usage(
+                format!("{}: no report has this ending", self.output.display()),
+                "Name a file that ends in .html or .svg, or say --format.",
+            )
+        })
     }
 }

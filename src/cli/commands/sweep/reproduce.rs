@@ -77,7 +77,7 @@ fn find(file: &Path, number: u64) -> Result<(Study, RunRow), Failure> {
 impl Reproduce {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
-        interrupt::listen()?;
+        interrupt::listen();
         let (study, row) = find(&self.file, self.row)?;
         let columns = study.columns();
         let Some(RowValue::Text(expected)) = row.cell(columns, "digest").cloned() else {
@@ -106,8 +106,8 @@ impl Reproduce {
             PlannedInputs::Stopped => return Ok(stopped()),
         };
         let output = self.output.unwrap_or_else(|| log_name(Path::new(""), self.row));
-        let target = Target::file(&output)?;
-        let Ended::Whole { digest, .. } = write_run(&run, LogKind::Frames, None, StopRule::default(), &output)? else {
+        let target = Target::log(&output)?;
+        let Ended::Whole { digest, .. } = write_run(&run, LogKind::Frames, None, StopRule::default(), &target)? else {
             remove_partial(&output);
             return Ok(stopped());
         };

@@ -17,6 +17,7 @@ use crate::cli::support::console::note;
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::CommandProgress;
+use crate::cli::support::target::Target;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -34,7 +35,7 @@ pub fn run(
     keep: Keep,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
-    interrupt::listen()?;
+    interrupt::listen();
     let logs = folder.join("logs");
     let needed = if keep == Keep::None { folder } else { &logs };
     fs::create_dir_all(needed).map_err(|error| Failure::output(needed, &error))?;
@@ -44,12 +45,13 @@ pub fn run(
     }
     let head = PartHead::new(study, shard.rows(study.runs()));
     let count = head.rows.end - head.rows.start;
-    let journal = Journal::open(&folder.join(format!("part-{shard}.journal")), head, study.columns())?;
+    let journal = Target::of(&folder.join(format!("part-{shard}.journal")))?;
+    let (journal, part) = (Journal::open(journal.path(), head, study.columns())?, Target::of(&part)?);
     let missing = journal.missing();
     let before = count - missing.len() as u64;
     let pool = pool(jobs)?;
     if before > 0 {
-        note(format!("{before} of {count} rows are there already"));
+        note(format!("{before} of {} are there already", counted(count, "row")));
     }
     let mut without = Vec::new();
     if keep != Keep::None {
@@ -59,7 +61,7 @@ pub fn run(
         })?;
     }
     if !make_logs(study, &without, &logs, &pool)? {
-        say(format!("stopped with {before} of {count} rows done\nThe same command goes on."));
+        say(format!("stopped with {before} of {} done\nThe same command goes on.", counted(count, "row")));
         return Ok(Outcome::Stopped);
     }
     let progress = CommandProgress::of_runs(count, before);
@@ -85,18 +87,18 @@ pub fn run(
     ran?;
     let left = journal.missing().len() as u64;
     if left > 0 {
-        say(format!("stopped with {} of {count} rows done\nThe same command goes on.", count - left));
+        say(format!("stopped with {} of {} done\nThe same command goes on.", count - left, counted(count, "row")));
         return Ok(Outcome::Stopped);
     }
     journal.finish(&part, study.columns())?;
-    note(format!("wrote {}", part.display()));
+    part.wrote();
     let (failures, without_run) = (failures.into_inner(), without_run.into_inner());
     let made = count - before;
     let failed = match failures {
         0 => "none failed".to_owned(),
         _ => format!("{failures} failed, of which {without_run} could not be run"),
     };
-    data.line(format!("{}, {made} of them made now; {failed}", counted(usize::try_from(count).unwrap_or(0), "run")))?;
+    data.line(format!("{}, {made} of them made now; {failed}", counted(count, "run")))?;
     if shard == Shard::WHOLE {
         note(format!("For one table: motion-lab sweep merge {} -o table.parquet", folder.display()));
     }
@@ -154,6 +156,6 @@ fn finished(
         say("stopped; the same command goes on");
         return Ok(Outcome::Stopped);
     }
-    data.line(format!("{count} runs, finished before"))?;
+    data.line(format!("{}, finished before", counted(count, "run")))?;
     Ok(Outcome::Done)
 }

@@ -1,6 +1,6 @@
 //! `world export`: a world in the format of another program.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use motion_lab::capture::{CaptureForm, Captured, with_names};
@@ -72,7 +72,7 @@ impl WorldExport {
                 self.picture(
                     &world,
                     if form == WorldFormat::Png { CaptureForm::Png } else { CaptureForm::Svg },
-                    target.path(),
+                    &target,
                 )?;
                 target.finish(data)?;
             }
@@ -87,7 +87,7 @@ impl WorldExport {
     }
 
     /// Draws the world.
-    fn picture(&self, world: &World, form: CaptureForm, path: &Path) -> Result<(), Failure> {
+    fn picture(&self, world: &World, form: CaptureForm, target: &Target) -> Result<(), Failure> {
         let paper = self.paper.paper();
         let mut picture = draw(world);
         if !self.names {
@@ -97,7 +97,7 @@ impl WorldExport {
         let worlds = std::slice::from_ref(world);
         let figure = if self.names { with_names(figure, worlds, paper.width_px()) } else { figure };
         let notes = vec![("World", format!("{} {:032x}", world.name, world.content_hash()))];
-        write_picture(&Captured { figure, notes }, &paper, form, path)
+        write_picture(&Captured { figure, notes }, &paper, form, target)
     }
 
     /// Writes the image first: a yaml without its image would be of no use.
@@ -111,18 +111,14 @@ impl WorldExport {
                 "Name the yaml file; the image is put beside it.",
             ));
         }
-        let target = Target::file(&self.output)?;
+        let (yaml, pgm) = (Target::file(&self.output)?, Target::file(&image)?);
         let files = grid.ros_map(&image.file_name().unwrap_or_default().to_string_lossy());
-        write_file(&image, &files.image)?;
-        write_file(&self.output, files.yaml.as_bytes())?;
-        note(format!(
-            "wrote {} and {}, {} x {} cells{}",
-            self.output.display(),
-            image.display(),
-            grid.columns(),
-            grid.rows(),
-            target.replacing()
-        ));
+        write_file(&pgm, &files.image)?;
+        write_file(&yaml, files.yaml.as_bytes())?;
+        let cells = format!("{} x {} cells", grid.columns(), grid.rows());
+        note(format!("wrote {} and {}, {cells}", self.output.display(), image.display()));
+        // what is lost is said of each
+        [yaml, pgm].iter().filter(|target| target.older().is_some()).for_each(Target::wrote);
         Ok(())
     }
 }

@@ -60,7 +60,7 @@ impl Generate {
             return Ok(Outcome::Done);
         };
         let target = Target::of(output)?;
-        write_file(output, text.as_bytes())?;
+        write_file(&target, text.as_bytes())?;
         let (robots, obstacles, routes) = (world.robots.len(), world.obstacles.len(), world.routes.len());
         target.wrote_with(&format!(
             " with {}, {} and {}",

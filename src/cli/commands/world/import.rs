@@ -127,7 +127,7 @@ impl Import {
             return Ok(Outcome::Done);
         };
         let target = Target::of(output)?;
-        write_file(output, text.as_bytes())?;
+        write_file(&target, text.as_bytes())?;
         target.wrote_with(&format!(" with {}", counted(world.obstacles.len(), "obstacle")));
         Ok(Outcome::Done)
     }

@@ -13,8 +13,8 @@ use serde::Serialize;
 
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::for_each_file;
+use crate::cli::support::output::write_text;
 use crate::cli::support::simulate::unknown_kind;
-use crate::cli::support::target::write_text;
 use crate::cli::support::words::counted;
 use crate::cli::support::world_source::{find_world, read_world};
 use crate::cli::{Data, Failure, Outcome, say};

@@ -49,6 +49,8 @@ enum Viewer {
 /// | `/viewer/scan/NAME/SENSOR` | `foxglove.LaserScan` | each tick, for a sensor of the robot's own |
 /// | `/viewer/log` | `foxglove.Log` | contacts, takeovers, refusals |
 ///
+/// In a topic, `/` in a name is `%2F` and `%` is `%25`, so that no two names make one topic.
+///
 /// A message is whole: it shows all of its topic, so that a viewer may begin anywhere. The messages lie in chunks with
 /// an index. With the feature `cli` the chunks are compressed by LZ4.
 ///

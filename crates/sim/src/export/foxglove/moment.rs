@@ -63,7 +63,12 @@ impl Moment<'_> {
         let Moment { tick, before, robots, .. } = *self;
         for (number, world) in self.standing.iter().enumerate() {
             if !self.shown.get(number).is_some_and(|old| Arc::ptr_eq(old, world)) {
-                out.message(&format!("/viewer/worlds/{}", world.name), CLOUD, tick, &cloud::world(tick, world))?;
+                out.message(
+                    &format!("/viewer/worlds/{}", segment(&world.name)),
+                    CLOUD,
+                    tick,
+                    &cloud::world(tick, world),
+                )?;
             }
         }
         for (number, robot) in robots.iter().enumerate() {
@@ -71,14 +76,15 @@ impl Moment<'_> {
             let parts = |robot: &RobotView| robot.footprint.parts().len();
             for k in 0..parts(robot).max(old.map_or(0, parts)) {
                 if cloud::look(robot, k) != old.and_then(|old| cloud::look(old, k)) {
-                    let topic = format!("/viewer/robots/{}/{k}", robot.name);
+                    let topic = format!("/viewer/robots/{}/{k}", segment(&robot.name));
                     out.message(&topic, CLOUD, tick, &cloud::part(tick, robot, k))?;
                 }
             }
         }
         for path in self.paths.iter().filter(|_| tick == 0) {
-            out.message(&format!("/viewer/paths/{}", path.robot), CLOUD, tick, &cloud::path(path))?;
-            out.message(&format!("/viewer/contacts/{}", path.robot), CLOUD, tick, &cloud::contacts(path))?;
+            let robot = segment(&path.robot);
+            out.message(&format!("/viewer/paths/{robot}"), CLOUD, tick, &cloud::path(path))?;
+            out.message(&format!("/viewer/contacts/{robot}"), CLOUD, tick, &cloud::contacts(path))?;
         }
         for SensorReading { topic, sensor, world, .. } in self.readings() {
             out.message(&topic, CLOUD, tick, &cloud::scan(tick, sensor, world))?;
@@ -91,13 +97,18 @@ impl Moment<'_> {
         self.sensors.iter().filter_map(|sensor| {
             let robot = self.robots.get(sensor.robot as usize).filter(|robot| robot.id == sensor.robot)?;
             let world = self.worlds.get(robot.world as usize)?;
-            let mut topic = format!("/viewer/scan/{}", robot.name);
+            let mut topic = format!("/viewer/scan/{}", segment(&robot.name));
             if !sensor.name.is_empty() {
-                topic = format!("{topic}/{}", sensor.name);
+                topic = format!("{topic}/{}", segment(&sensor.name));
             }
             Some(SensorReading { topic, sensor, robot, world })
         })
     }
+}
+
+/// A name as one segment of a topic: `/` as `%2F` and `%` as `%25`, so that no two names make one topic.
+fn segment(name: &str) -> String {
+    name.replace('%', "%25").replace('/', "%2F")
 }
 
 /// A sensor with its robot.
