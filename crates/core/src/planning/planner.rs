@@ -3,7 +3,7 @@
 use super::{Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, Progress, Search, Sensed, is_same};
 use crate::collision::Problem;
 use crate::cspace::CellMap;
-use crate::robots::{ChartLine, Motion, Robot};
+use crate::robots::{ChartLine, Motion, Robot, stays_within};
 
 /// A planner: it works on one problem, an iteration at a time, and shows what it has grown.
 ///
@@ -71,8 +71,8 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> + 'stati
 /// Runs a planner until it has a path, has ended or has reached a bound.
 ///
 /// The path is checked once more before it is returned, whoever wrote the planner: it leads from the problem's start to
-/// its goal, and the verifier accepts its certificates in the problem's scene. The iterations are counted here too, so
-/// a planner that counts nothing is bounded as well.
+/// its goal, it keeps within the scene's bounds, and the verifier accepts its certificates there. The iterations are
+/// counted here too, so a planner that counts nothing is bounded as well.
 ///
 /// # Errors
 /// [`NoPath`] says why there is none.
@@ -99,7 +99,7 @@ pub fn solve<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'st
 /// The planner's path, if it stands the check of [`solve`].
 ///
 /// # Errors
-/// [`PathError`]: there is none, it leads elsewhere, or the verifier refuses it.
+/// [`PathError`]: there is none, it leads elsewhere, it leaves the scene's bounds, or the verifier refuses it.
 pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &(impl Planner<R, M> + ?Sized),
 ) -> Result<CertifiedPath<M>, PathError> {
@@ -108,5 +108,9 @@ pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 
         return Err(PathError::OtherEnds);
     }
     path.verify(problem.checker().scene())?;
+    let (robot, bounds) = (problem.checker().robot(), problem.checker().scene().bounds());
+    if let Some(leg) = path.legs().iter().position(|leg| !stays_within(robot, leg.motion(), &bounds)) {
+        return Err(PathError::Outside(leg));
+    }
     Ok(path.clone())
 }
