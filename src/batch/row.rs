@@ -37,6 +37,16 @@ impl RowValue {
         if text.is_empty() { RowValue::Empty } else { RowValue::Text(text) }
     }
 
+    /// The value as a text; a number has the fewest digits that read back to the same bits.
+    pub fn to_text(&self) -> String {
+        match self {
+            RowValue::Empty => String::new(),
+            RowValue::Whole(n) => n.to_string(),
+            RowValue::Number(x) => x.to_string(),
+            RowValue::Text(text) => text.clone(),
+        }
+    }
+
     fn read(text: String, kind: CellKind) -> Option<RowValue> {
         if text.is_empty() {
             return Some(RowValue::Empty);
@@ -53,13 +63,7 @@ impl RunRow {
     /// The row as a line of comma-separated values, without its end. Numbers have the fewest digits that read back to
     /// the same bits.
     pub fn to_line(&self) -> String {
-        let texts = self.cells.iter().map(|cell| match cell {
-            RowValue::Empty => String::new(),
-            RowValue::Whole(n) => n.to_string(),
-            RowValue::Number(x) => x.to_string(),
-            RowValue::Text(text) => text.clone(),
-        });
-        csv::line(texts)
+        csv::line(self.cells.iter().map(RowValue::to_text))
     }
 
     /// The row of a line of a table with these columns; `None` where they do not fit.

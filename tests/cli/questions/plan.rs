@@ -254,3 +254,30 @@ fn planners_are_compared_in_a_table_and_in_rows() {
     let none = run(&[&none[..], &["--seeds", "0..2"]].concat());
     assert!(none.code == Some(4) && none.out.contains("0 of 2"), "{} {}", none.out, none.err);
 }
+
+#[test]
+fn rrt_star_shortens_its_path_as_long_as_it_is_let() {
+    let length = |more: &[&str]| {
+        let arguments =
+            ["plan", "--json", "--planner", "rrt-star", "--robot", "Rusty", "--from", "3,5.5", "--to", "9.75,6.25"];
+        let answer = json(&run(&[&arguments[..], more].concat()).done());
+        (answer["length"].as_f64().unwrap(), answer["effort"]["iterations"].as_u64().unwrap())
+    };
+    let (first, few, many) = (length(&[]), length(&["--iterations", "1500"]), length(&["--iterations", "4000"]));
+    assert!(first.1 < 1500 && few.1 == 1500 && many.1 == 4000, "{first:?} {few:?} {many:?}");
+    assert!(first.0 > few.0 && few.0 > many.0, "{first:?} {few:?} {many:?}");
+    // never shorter than the straight line: sqrt(6.75^2 + 0.75^2)
+    assert!(many.0 > 6.791, "{many:?}");
+}
+
+#[test]
+fn a_rover_that_is_there_has_no_way_to_go() {
+    for planner in ["rrt", "rrt-connect", "rrt-star", "a-star", "visibility-graph", "bug2"] {
+        let answer = json(
+            &run(&["plan", "--json", "--planner", planner, "--robot", "Rusty", "--from", "3,5.5", "--to", "3,5.5"])
+                .done(),
+        );
+        assert_eq!((&answer["solved"], answer["length"].as_f64()), (&true.into(), Some(0.0)), "{planner}: {answer}");
+        assert_eq!(answer["legs"], 0, "{planner}: {answer}");
+    }
+}

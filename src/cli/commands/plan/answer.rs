@@ -88,7 +88,8 @@ impl PlanAnswer {
             solved: true,
             effort: Some(attempt.effort().into()),
             seconds: Some(seconds),
-            legs: Some(attempt.legs().len()),
+            // a leg of a path that stays where it is leads nowhere
+            legs: Some(attempt.legs().iter().filter(|leg| leg.from != leg.to).count()),
             length: Some(JsonNumber(length)),
             clearance: Some(JsonNumber(clearance)),
             ..Self::new(task, planner, seed)

@@ -16,7 +16,6 @@ use motion_lab::planning::Bounds;
 use motion_lab::plans::{PathFile, PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
-use crate::cli::support::choices::NumberList;
 use crate::cli::support::output::write_file;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
@@ -31,8 +30,8 @@ impl PlanArgs {
         if !(0.0..=1.0).contains(&self.tube) {
             return Err(Failure::usage(format!("--tube {}: it must be from 0 to 1 m", self.tube), "Change --tube."));
         }
-        let from = self.from.as_ref().map(|NumberList(from)| from.as_slice());
-        let task = task::find(&self.robot, self.world.as_deref(), from, &self.to.0, self.tube)?;
+        let (world, from) = (self.world.as_deref(), self.from.as_ref());
+        let task = task::find(&self.robot, world, from, &self.to, self.tube)?;
         if !self.compare.is_empty() {
             return compare::compare(&self, &task, data);
         }
@@ -44,6 +43,11 @@ impl PlanArgs {
         };
         let progress = CommandProgress::unknown("planning");
         let solved = attempt.solve(&self.bounds(name));
+        // a bound that somebody gives is how long a path may be shortened
+        let solved = match self.iterations {
+            Some(_) => solved.and_then(|()| attempt.improve(&self.bounds(name))),
+            None => solved,
+        };
         drop(progress);
         let seconds = begun.elapsed().as_secs_f64();
         match solved {
