@@ -97,7 +97,7 @@ fn a_robot_that_nobody_drives_stands() {
 
 #[test]
 fn a_robot_on_a_route_stands_when_it_is_graded_and_is_traffic_when_it_is_not() {
-    // a square lane of 4 m by 4 m; half a metre a second
+    // a square lane of 6 m by 6 m, along whose lower side A drives to the right
     let world = r#"World(version: 1, name: "yard", bounds: (min: (0, 0), max: (10, 10)),
         routes: [(name: "lane", points: [(2, 2), (8, 2), (8, 8), (2, 8)], radius: 0.5, speed: 0.4)],
         robots: [(name: "A", kind: "rusty", start: [4, 2, 0], route: "lane"),
@@ -113,9 +113,17 @@ fn a_robot_on_a_route_stands_when_it_is_graded_and_is_traffic_when_it_is_not() {
         folder(&[("yard.ron", world), ("nothing.ron", NOTHING), ("exam.ron", &exam("A", "[4, 2, 0]", "[6, 2, 0]"))]);
     let standing = row(folder.path(), "nothing.ron");
     assert_eq!(standing["attempts"][0]["configuration"], serde_json::json!([4.0, 2.0, 0.0]), "{standing}");
-    fs::write(folder.path().join("exam.ron"), exam("B", "[6, 2, 0]", "[6, 5, 0]")).unwrap();
-    let met = row(folder.path(), "nothing.ron");
-    assert_eq!(met["attempts"][0]["verdict"], "too many contacts", "the robot on its route drives into it: {met}");
+    // B comes toward A along the lane: were A to stand, they would meet at 4.22 m, a diameter from it
+    fs::write(folder.path().join("exam.ron"), exam("B", "[7.5, 2, 3.14159]", "[6, 5, 0]")).unwrap();
+    fs::write(
+        folder.path().join("ahead.ron"),
+        r#"Script(version: 1, events: [(tick: 1, robot: "B", input: Drive(128, 0))])"#,
+    )
+    .unwrap();
+    let met = row(folder.path(), "ahead.ron");
+    let attempt = &met["attempts"][0];
+    assert_eq!(attempt["verdict"], "too many contacts", "{met}");
+    assert!(attempt["configuration"][0].as_f64().unwrap() > 4.6, "{met}");
 }
 
 #[test]
@@ -136,7 +144,7 @@ fn a_trailer_is_dropped_and_taken_again_only_where_the_assignment_says_so() {
 
 #[test]
 fn an_assignment_whose_robot_starts_at_its_goal_is_refused() {
-    let folder = folder(&[("nothing.ron", NOTHING), ("exam.ron", &ROOM_C.replace("9.75, 6.25", "3, 5.6"))]);
+    let folder = folder(&[("nothing.ron", NOTHING), ("exam.ron", &ROOM_C.replace("9.75, 6.25", "2.25, 6.3"))]);
     let refused = run_in(folder.path(), &["grade", "exam.ron", "nothing.ron"]).failed(3);
     assert!(refused.contains("exam.ron:2: goal: the robot is there at the start"), "{refused}");
     for (from, to, said) in [

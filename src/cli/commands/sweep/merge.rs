@@ -229,6 +229,8 @@ impl Merge {
 /// Checks that a row says the run that the study has in it: its seed, its length, the values of the axes.
 fn check_plan(study: &Study, row: &RunRow, path: &Path) -> Result<(), Failure> {
     let Some((column, own)) = study.contradicted(row) else { return Ok(()) };
+    // where the seal is wrong, the part is damaged
+    OpenedPart::open(path)?.prove()?;
     let (name, number, own) = (&column.name, row.row, own.to_text());
     let found = row.cell(study.columns(), name).map_or_else(String::new, RowValue::to_text);
     Err(Failure::input(
