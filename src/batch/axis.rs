@@ -3,6 +3,7 @@
 use super::error::SweepProblem;
 use super::parameter::{Parameter, ValueForm};
 use super::values::{AxisValue, Over, WrittenNumber};
+use motion_lab_core::configuration::{RobotKind, WrittenCoordinate};
 use motion_lab_core::random::{Seed, Stream};
 
 /// An axis whose values fit its parameter.
@@ -34,10 +35,14 @@ impl CheckedAxis {
         {
             return Err(SweepProblem::NotWhole(wrong.real()));
         }
+        let is_degrees = |number: &WrittenNumber| matches!(number, WrittenNumber::Degrees(_));
+        if form != ValueForm::Number("rad") && over.written().iter().any(is_degrees) {
+            return Err(SweepProblem::Degrees);
+        }
         match over {
             Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(count)),
-            Over::Steps(from, to, _) | Over::Uniform(from, to) if !(to - from).is_finite() => {
-                Err(SweepProblem::Span(from, to))
+            Over::Steps(from, to, _) | Over::Uniform(from, to) if !(to.real() - from.real()).is_finite() => {
+                Err(SweepProblem::Span(from.real(), to.real()))
             }
             _ if over.len() == Some(0) => Err(SweepProblem::Empty),
             over => Ok(CheckedAxis { parameter, over }),
@@ -56,11 +61,16 @@ impl CheckedAxis {
             Over::Range(from, _) => self.whole(from.saturating_add(i)),
             Over::Values(values) => self.written(values[at(values.len())]),
             // the last one exactly, whatever the rounding
-            Over::Steps(_, to, count) if i + 1 >= *count => self.number(*to),
-            Over::Steps(from, to, count) => self.number(from + (to - from) * (i as f64 / (count - 1) as f64)),
-            Over::Uniform(from, _) => self.number(*from),
+            Over::Steps(_, to, count) if i + 1 >= *count => self.number(to.real()),
+            Over::Steps(from, to, count) => {
+                let (from, to) = (from.real(), to.real());
+                self.number(from + (to - from) * (i as f64 / (count - 1) as f64))
+            }
+            Over::Uniform(from, _) => self.number(from.real()),
             Over::Names(names) => AxisValue::Name(names[at(names.len())].clone()),
-            Over::Starts(starts) => AxisValue::Start(starts[at(starts.len())].clone()),
+            Over::Starts(starts) => {
+                AxisValue::Start(starts[at(starts.len())].iter().map(|coordinate| coordinate.value()).collect())
+            }
         }
     }
 
@@ -68,8 +78,22 @@ impl CheckedAxis {
     pub fn draw(&self, seed: Seed, row: u64) -> AxisValue {
         let mut stream = Stream::new(seed, &format!("sweep/{}", self.parameter.name())).at(row);
         match (&self.over, self.len()) {
-            (Over::Uniform(from, to), _) => self.number(stream.uniform(*from, *to)),
+            (Over::Uniform(from, to), _) => self.number(stream.uniform(from.real(), to.real())),
             (_, len) => self.value(stream.below(len.unwrap_or(1))),
+        }
+    }
+
+    /// What the writer of its values may have meant by angles of more than a turn, in the first that is one.
+    pub fn turns(&self) -> Option<String> {
+        match (&self.over, &self.parameter) {
+            (Over::Starts(starts), Parameter::Robot { kind, .. }) => {
+                let lengths = RobotKind::of(kind)?.lengths;
+                starts.iter().find_map(|start| WrittenCoordinate::all_turns(start, lengths).next())
+            }
+            (over, parameter) if parameter.form() == ValueForm::Number("rad") => {
+                over.written().into_iter().find_map(WrittenNumber::turns)
+            }
+            _ => None,
         }
     }
 

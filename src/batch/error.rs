@@ -68,6 +68,15 @@ pub enum SweepProblem {
         /// The coordinates of the robot's start.
         expected: usize,
     },
+    /// Degrees for something that is no angle.
+    #[error("degrees are for angles, and this is none")]
+    Degrees,
+    /// A length of a goal in degrees.
+    #[error(transparent)]
+    Length(motion_lab_core::configuration::WrittenCoordinateError),
+    /// A goal outside the world of its robot.
+    #[error(transparent)]
+    Outside(motion_lab_core::worlds::OutsideError),
     /// A planner in a study that gives it nothing to do, with the reason.
     #[error("{0}")]
     Planner(&'static str),

@@ -11,11 +11,11 @@ use motion_lab_sim::simulation::Refusals;
 use motion_lab_sim::tour::TourConfig;
 
 /// The goal of a run, and how long its robot was there.
-struct GoalWatch<'a> {
+struct GoalWatch {
     robot: usize,
     about: Option<&'static RobotKind>,
-    at: &'a [f64],
-    within: &'a [f64],
+    at: Vec<f64>,
+    within: Vec<f64>,
     /// The number of ticks that ended there.
     ticks: u64,
     /// The first tick there; 0 is the start.
@@ -28,7 +28,7 @@ pub struct RowGatherer<'a> {
     row: u64,
     residents: Vec<&'a Resident>,
     stats: StatsGatherer<'a>,
-    goal: Option<GoalWatch<'a>>,
+    goal: Option<GoalWatch>,
 }
 
 impl<'a> RowGatherer<'a> {
@@ -38,7 +38,7 @@ impl<'a> RowGatherer<'a> {
         let goal = study.goal().and_then(|goal| {
             let robot = residents.iter().position(|resident| resident.name == goal.robot)?;
             let about = study.kinds.of(&residents[robot].kind);
-            Some(GoalWatch { robot, about, at: &goal.at, within: &goal.within, ticks: 0, first: None })
+            Some(GoalWatch { robot, about, at: goal.at(), within: goal.within(), ticks: 0, first: None })
         });
         let stats = StatsGatherer::new(config, script, &study.kinds);
         RowGatherer { study, row, residents, stats, goal }
@@ -97,12 +97,12 @@ impl<'a> RowGatherer<'a> {
     }
 }
 
-impl GoalWatch<'_> {
+impl GoalWatch {
     /// Whether a configuration is at the goal, angles the short way round. One of another space is not.
     fn is_met(&self, q: &[f64]) -> bool {
         let Some(about) = self.about else { return false };
-        let difference = (about.difference)(self.at, q);
-        difference.is_some_and(|d| d.iter().zip(self.within).all(|(d, within)| d.abs() <= *within))
+        let difference = (about.difference)(&self.at, q);
+        difference.is_some_and(|d| d.iter().zip(&self.within).all(|(d, within)| d.abs() <= *within))
     }
 }
 

@@ -38,12 +38,18 @@ impl RowValue {
         if text.is_empty() { RowValue::Empty } else { RowValue::Text(text) }
     }
 
+    /// The value as a cell of a table for others.
     fn to_table_cell(&self) -> String {
+        if let RowValue::Text(text) = self { csv_cell(text) } else { self.to_text() }
+    }
+
+    /// The value as a text; a number has the fewest digits that read back to the same bits.
+    pub fn to_text(&self) -> String {
         match self {
             RowValue::Empty => String::new(),
             RowValue::Whole(n) => n.to_string(),
             RowValue::Number(x) => x.to_string(),
-            RowValue::Text(text) => csv_cell(text),
+            RowValue::Text(text) => text.clone(),
         }
     }
 
@@ -63,13 +69,7 @@ impl RunRow {
     /// The row as a line of comma-separated values, without its end. Numbers have the fewest digits that read back to
     /// the same bits.
     pub fn to_line(&self) -> String {
-        let texts = self.cells.iter().map(|cell| match cell {
-            RowValue::Empty => String::new(),
-            RowValue::Whole(n) => n.to_string(),
-            RowValue::Number(x) => x.to_string(),
-            RowValue::Text(text) => text.clone(),
-        });
-        csv::line(texts)
+        csv::line(self.cells.iter().map(RowValue::to_text))
     }
 
     /// The row as a line of a table for others, without its end: as [`to_line`](Self::to_line), but texts are cells by

@@ -32,6 +32,19 @@ pub enum ShardError {
         /// Its value.
         value: String,
     },
+    /// An array that leaves numbers out, so that its count of tasks does not say which they are.
+    #[error(
+        "the array's tasks are {count} of the numbers {first} to {last}: with gaps nobody can tell which rows are \
+         whose; number them without gaps, or write auto/N for N shards, of which the tasks 1 to N are numbered"
+    )]
+    Gaps {
+        /// The number of the first task.
+        first: u64,
+        /// The number of the last task.
+        last: u64,
+        /// The number of tasks.
+        count: u64,
+    },
     /// A task beyond the number of shards.
     #[error("{name}={value}: there are {of} shards; number the tasks from {first}")]
     Beyond {
@@ -65,8 +78,11 @@ impl Shard {
     /// | Slurm array | `SLURM_ARRAY_TASK_ID` | 1 | `count` |
     /// | the same | the same | `SLURM_ARRAY_TASK_MIN` | without `count`: `SLURM_ARRAY_TASK_COUNT` |
     ///
+    /// An array that leaves numbers out, as `--array=1-7:2` or `--array=1,2,9`, has no shards without `count`: that
+    /// `SLURM_ARRAY_TASK_MIN` to `SLURM_ARRAY_TASK_MAX` are as many as its tasks is checked.
+    ///
     /// # Errors
-    /// [`ShardError`] when no engine says a task, or nobody a count.
+    /// [`ShardError`] when no engine says a task, nobody a count, or an array leaves numbers out.
     pub fn of_engine(count: Option<u64>, variable: impl Fn(&str) -> Option<String>) -> Result<Self, ShardError> {
         let number = |name: &'static str| {
             variable(name)
@@ -89,7 +105,12 @@ impl Shard {
         let of = match count {
             Some(of) => of,
             None if name == "SLURM_ARRAY_TASK_ID" => {
-                number("SLURM_ARRAY_TASK_COUNT")?.ok_or(ShardError::NoCount(name))?
+                let count = number("SLURM_ARRAY_TASK_COUNT")?.ok_or(ShardError::NoCount(name))?;
+                let last = number("SLURM_ARRAY_TASK_MAX")?;
+                if let Some(last) = last.filter(|last| last.checked_sub(first) != count.checked_sub(1)) {
+                    return Err(ShardError::Gaps { first, last, count });
+                }
+                count
             }
             None => return Err(ShardError::NoCount(name)),
         };
@@ -154,6 +175,18 @@ mod tests {
         let array = [("SLURM_ARRAY_TASK_ID", "12"), ("SLURM_ARRAY_TASK_COUNT", "4"), ("SLURM_ARRAY_TASK_MIN", "10")];
         assert_eq!(of(None, &array), Ok("3-of-4".into()), "an array 10-13");
         assert_eq!(of(Some(20), &array), Ok("12-of-20".into()), "some tasks of 1-20 once more");
+        // sbatch(1): --array=1-7:2 is 1, 3, 5, 7, and --array=10,12,13 is those three
+        let with_max = |id, min, max, count| {
+            let names = ["ID", "MIN", "MAX", "COUNT"].map(|name| format!("SLURM_ARRAY_TASK_{name}"));
+            let set: Vec<(&str, &str)> = names.iter().map(String::as_str).zip([id, min, max, count]).collect();
+            [of(None, &set), of(Some(20), &set)]
+        };
+        assert_eq!(with_max("12", "10", "13", "4")[0], Ok("3-of-4".into()));
+        assert_eq!(with_max("7", "7", "7", "1")[0], Ok("1-of-1".into()), "an array of one");
+        let gaps = |first, last, count| Err(ShardError::Gaps { first, last, count });
+        assert_eq!(with_max("3", "1", "7", "4"), [gaps(1, 7, 4), Ok("3-of-20".into())]);
+        assert_eq!(with_max("10", "10", "13", "3"), [gaps(10, 13, 3), Ok("10-of-20".into())]);
+        assert_eq!(with_max("1", "1", "2", "4")[0], gaps(1, 2, 4), "numbers that no array has");
         assert_eq!(of(Some(5), &[("HQ_TASK_ID", "5")]), Ok("5-of-5".into()));
         assert_eq!(of(Some(5), &[("HQ_TASK_ID", "2"), array[0], array[1], array[2]]), Ok("2-of-5".into()));
         assert_eq!(of(Some(5), &[("JOB_COMPLETION_INDEX", "0")]), Ok("1-of-5".into()));

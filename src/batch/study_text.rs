@@ -7,6 +7,7 @@ use xxhash_rust::xxh3::xxh3_128;
 
 use super::points::Combinations;
 use super::values::Over;
+use motion_lab_core::configuration::WrittenCoordinate;
 use motion_lab_sim::run::Digest;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -97,8 +98,20 @@ pub(super) struct RunSensorText {
 #[serde(deny_unknown_fields)]
 pub(super) struct GoalText {
     pub robot: String,
-    pub at: Vec<f64>,
-    pub within: Vec<f64>,
+    pub at: Vec<WrittenCoordinate>,
+    pub within: Vec<WrittenCoordinate>,
+}
+
+impl GoalText {
+    /// The configuration.
+    pub fn at(&self) -> Vec<f64> {
+        self.at.iter().map(|coordinate| coordinate.value()).collect()
+    }
+
+    /// The tolerances.
+    pub fn within(&self) -> Vec<f64> {
+        self.within.iter().map(|coordinate| coordinate.value()).collect()
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

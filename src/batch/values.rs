@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use serde::de::{Deserializer, Error, Visitor};
+use motion_lab_core::configuration::WrittenCoordinate;
+use serde::de::{Deserializer, Error, IntoDeserializer, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +12,8 @@ pub(super) enum WrittenNumber {
     Real(f64),
     /// A whole number from [`FIRST_INEXACT`] on, written without a point.
     Whole(u64),
+    /// An angle that was written in degrees.
+    Degrees(WrittenCoordinate),
 }
 
 /// 2^53, the first whole number that doubles do not tell from its successor.
@@ -22,6 +25,15 @@ impl WrittenNumber {
         match self {
             WrittenNumber::Real(x) => x,
             WrittenNumber::Whole(n) => n as f64,
+            WrittenNumber::Degrees(angle) => angle.value(),
+        }
+    }
+
+    /// Of an angle that was written in radians and is more than a turn, what its writer may have meant.
+    pub fn turns(self) -> Option<String> {
+        match self {
+            WrittenNumber::Real(x) => WrittenCoordinate::number(x).turns(),
+            WrittenNumber::Whole(_) | WrittenNumber::Degrees(_) => None,
         }
     }
 
@@ -32,6 +44,7 @@ impl WrittenNumber {
                 ((0.0..FIRST_INEXACT as f64).contains(&x) && x.fract() == 0.0).then_some(x as u64)
             }
             WrittenNumber::Whole(n) => Some(n),
+            WrittenNumber::Degrees(_) => None,
         }
     }
 }
@@ -41,6 +54,7 @@ impl Serialize for WrittenNumber {
         match self {
             WrittenNumber::Real(x) => serializer.serialize_f64(*x),
             WrittenNumber::Whole(n) => serializer.serialize_u64(*n),
+            WrittenNumber::Degrees(angle) => angle.serialize(serializer),
         }
     }
 }
@@ -57,7 +71,11 @@ impl Visitor<'_> for WrittenNumberVisitor {
     type Value = WrittenNumber;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("a number")
+        f.write_str("a number, or degrees in quotes, as \"90deg\"")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<WrittenNumber, E> {
+        WrittenCoordinate::deserialize(text.into_deserializer()).map(WrittenNumber::Degrees)
     }
 
     fn visit_u64<E: Error>(self, n: u64) -> Result<WrittenNumber, E> {
@@ -80,12 +98,12 @@ pub(super) enum Over {
     Range(u64, u64),
     Values(Vec<WrittenNumber>),
     /// This many numbers evenly from the first to the second, both included.
-    Steps(f64, f64, u64),
+    Steps(WrittenNumber, WrittenNumber, u64),
     /// Drawn uniformly from the first to the second, without it.
-    Uniform(f64, f64),
+    Uniform(WrittenNumber, WrittenNumber),
     /// Names: built-in worlds, or files.
     Names(Vec<String>),
-    Starts(Vec<Vec<f64>>),
+    Starts(Vec<Vec<WrittenCoordinate>>),
 }
 
 /// The value of an axis in a row.
@@ -100,13 +118,20 @@ pub(super) enum AxisValue {
 }
 
 impl Over {
+    /// The numbers that are written, but those of starts.
+    pub fn written(&self) -> Vec<WrittenNumber> {
+        match self {
+            Over::Range(..) | Over::Names(_) | Over::Starts(_) => Vec::new(),
+            Over::Values(values) => values.clone(),
+            Over::Steps(from, to, _) | Over::Uniform(from, to) => vec![*from, *to],
+        }
+    }
+
     /// The numbers that are written.
     pub fn numbers(&self) -> Vec<f64> {
         match self {
-            Over::Range(..) | Over::Names(_) => Vec::new(),
-            Over::Values(values) => values.iter().map(|value| value.real()).collect(),
-            Over::Steps(from, to, _) | Over::Uniform(from, to) => vec![*from, *to],
-            Over::Starts(starts) => starts.concat(),
+            Over::Starts(starts) => starts.iter().flatten().map(|coordinate| coordinate.value()).collect(),
+            over => over.written().into_iter().map(WrittenNumber::real).collect(),
         }
     }
 

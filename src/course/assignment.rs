@@ -1,53 +1,20 @@
 //! `Assignment`, a robot's goal and limits: read from a file, checked within its world.
 
 use bevy::app::App;
-use ron::error::SpannedError;
 use ron::value::RawValue;
-use serde::Deserialize;
 
 use super::added_kinds::AddedKinds;
+use super::assignment_text::{AssignmentText, AssignmentVersion, Goal, Limits, item_of, items, line_of, options};
 use super::seeds::Seeds;
 use super::{AssignmentError, AssignmentProblem, MAX_SEEDS, Points, Stay, When};
 use motion_lab_core::collision::{Collision, Scene};
-use motion_lab_core::configuration::RobotKind;
+use motion_lab_core::configuration::{Coordinates, RobotKind, WrittenCoordinate};
 use motion_lab_core::random::Seed;
-use motion_lab_core::text_position::{byte_at, line_at, offset_of};
 use motion_lab_core::worlds::{Resident, World, begin_of, ron_in_words};
 use motion_lab_sim::recording::{Recorder, RunError, Verification, verify_with_robots};
 use motion_lab_sim::run::{Log, Script};
+use motion_lab_sim::simulation::{RobotId, StandingRobots};
 use motion_lab_sim::tour::{MAX_TICKS, TourConfig};
-
-/// The configuration to reach, with tolerances.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Goal {
-    /// The coordinates of its configuration: metres and radians.
-    pub at: Vec<f64>,
-    /// The tolerance of each coordinate, 0 or more; angles compare the short way round.
-    pub within: Vec<f64>,
-    /// Number of ticks in a row that the robot has to be there; 1 when left out. The older way to say [`Stay::hold`].
-    #[serde(default = "one")]
-    pub ticks: u64,
-}
-
-fn one() -> u64 {
-    1
-}
-
-/// The limits of an attempt, each inclusive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Limits {
-    /// The last tick at which the goal may be reached.
-    pub ticks: u64,
-    /// Largest number of contact episodes until then; any number when left out.
-    #[serde(default)]
-    pub contacts: Option<u32>,
-    /// Largest number of changes between forward and backward until then, for a robot that drives; any number when left
-    /// out.
-    #[serde(default)]
-    pub reversals: Option<u32>,
-}
 
 /// An assignment file as written. It names its world and does not hold it.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,54 +22,6 @@ pub struct AssignmentFile {
     file: String,
     source: String,
     text: AssignmentText,
-}
-
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(rename = "Assignment", deny_unknown_fields)]
-struct AssignmentText {
-    version: u64,
-    world: String,
-    robot: String,
-    #[serde(default)]
-    start: Option<Vec<f64>>,
-    goal: Goal,
-    #[serde(default)]
-    stay: Option<Stay>,
-    limits: Limits,
-    #[serde(default)]
-    points: Option<Points>,
-    seeds: Seeds,
-}
-
-/// The version alone, for files of other versions.
-#[derive(Deserialize)]
-#[serde(rename = "Assignment")]
-struct AssignmentVersion {
-    version: u64,
-}
-
-/// The items as raw text, for their lines in the file.
-#[derive(Deserialize)]
-#[serde(rename = "Assignment")]
-struct RawAssignment<'a> {
-    #[serde(borrow, default)]
-    version: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    world: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    robot: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    start: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    goal: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    stay: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    limits: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    points: Option<&'a RawValue>,
-    #[serde(borrow, default)]
-    seeds: Option<&'a RawValue>,
 }
 
 impl AssignmentFile {
@@ -134,6 +53,20 @@ impl AssignmentFile {
         &self.text.world
     }
 
+    /// What its writer may have meant by angles of more than a turn in the start and the goal, in the world it names.
+    pub fn turns(&self, world: &World) -> Vec<String> {
+        let AssignmentText { robot, start, goal, .. } = &self.text;
+        let about = world.robots.iter().find(|known| known.name == *robot).and_then(|known| RobotKind::of(&known.kind));
+        let Some(about) = about else { return Vec::new() };
+        let of = |item: &'static str, written: &[WrittenCoordinate]| {
+            let turns: Vec<String> = WrittenCoordinate::all_turns(written, about.lengths).collect();
+            turns
+                .into_iter()
+                .map(move |turns| format!("{}:{}: {item}: {turns}", self.file, line_of(&self.source, item)))
+        };
+        of("start", start.as_deref().unwrap_or_default()).chain(of("goal", &goal.at)).collect()
+    }
+
     /// The assignment in the world it names.
     ///
     /// # Errors
@@ -159,7 +92,8 @@ impl AssignmentFile {
     }
 
     fn with_kinds(&self, mut world: World, added: AddedKinds) -> Result<Assignment, AssignmentError> {
-        let AssignmentText { robot, start, goal, stay, limits, points, seeds: Seeds(seeds), .. } = &self.text;
+        let AssignmentText { robot, start, goal, stay, limits, points, set_trailer, seeds: Seeds(seeds), .. } =
+            &self.text;
         let error = |item: &'static str, problem: AssignmentProblem| AssignmentError {
             file: self.file.clone(),
             line: line_of(&self.source, item),
@@ -171,10 +105,13 @@ impl AssignmentFile {
             let there = if names.is_empty() { "none".into() } else { names.join(", ") };
             return Err(error("robot", AssignmentProblem::Robot { robot: robot.clone(), there }));
         };
+        let lengths = RobotKind::of(&world.robots[number].kind).map_or(0, |known| known.lengths);
         if let Some(start) = start {
-            world.robots[number].start.clone_from(start);
+            let values = WrittenCoordinate::values(start, lengths);
+            world.robots[number].start = values.map_err(|reason| error("start", reason.into()))?;
         }
-        let about = check_place(&world, number, &added).map_err(|problem| error("start", problem))?;
+        let goal = goal.goal(lengths).map_err(|reason| error("goal", reason.into()))?;
+        let about = check_place(&world, number, "start", &added).map_err(|problem| error("start", problem))?;
         let (coordinates, tolerances) = (goal.at.len(), goal.within.len());
         if coordinates != tolerances {
             return Err(error("goal", AssignmentProblem::Tolerances { coordinates, tolerances }));
@@ -184,7 +121,7 @@ impl AssignmentFile {
         }
         let mut there = world.clone();
         there.robots[number].start.clone_from(&goal.at);
-        check_place(&there, number, &added).map_err(|problem| error("goal", problem))?;
+        check_place(&there, number, "goal", &added).map_err(|problem| error("goal", problem))?;
         for (item, ticks) in [("limits", limits.ticks), ("goal", goal.ticks)] {
             if !(1..=MAX_TICKS).contains(&ticks) {
                 return Err(error(item, AssignmentProblem::Ticks(ticks)));
@@ -216,16 +153,22 @@ impl AssignmentFile {
                 .map_err(|problem| error("points", problem))?;
         }
         let seeds = seeds.iter().copied().map(Seed).collect();
-        let (goal, limits, points) = (goal.clone(), *limits, *points);
-        Ok(Assignment { world, number, kind, goal, stay, limits, points, seeds, added, about })
+        let (limits, points, set_trailer) = (*limits, *points, *set_trailer);
+        let assignment =
+            Assignment { world, number, kind, goal, stay, limits, points, set_trailer, seeds, added, about };
+        if assignment.is_at_goal(&assignment.world.robots[number].start) {
+            return Err(error("goal", AssignmentProblem::AtStart));
+        }
+        Ok(assignment)
     }
 }
 
-/// Checks that the robot with this number has a valid start in the world and touches no obstacle there. Returns the
-/// description of its kind, if it has one.
+/// Checks that the robot with this number has a valid start in the world, within its bounds, and touches no obstacle
+/// there; errors call the start `what`. Returns the description of its kind, if it has one.
 fn check_place(
     world: &World,
     number: usize,
+    what: &'static str,
     added: &AddedKinds,
 ) -> Result<Option<&'static RobotKind>, AssignmentProblem> {
     let config = TourConfig { worlds: vec![world.clone()], ticks: 0, sensor: None };
@@ -233,6 +176,8 @@ fn check_place(
     let run = run.map_err(AssignmentProblem::Configuration)?;
     let Resident { name, kind, start, .. } = &world.robots[number];
     Resident::try_new(name.clone(), kind.clone(), start.clone(), None).map_err(AssignmentProblem::Place)?;
+    world.check_position(kind, what, start)?;
+    world.check_resident(&world.robots[number])?;
     let scene = Scene::of_world(world);
     let Some(robot) = run.view().into_iter().nth(number) else { return Ok(None) };
     match scene.witness(&robot.footprint).filter(|w| w.dist == 0.0) {
@@ -243,49 +188,12 @@ fn check_place(
     }
 }
 
-/// The RON options of assignments: an optional value is written plainly, as in `contacts: 0`.
-fn options() -> ron::Options {
-    ron::Options::default().with_default_extension(ron::extensions::Extensions::IMPLICIT_SOME)
-}
-
-/// The texts of the items of a file, with the blanks and comments around them; none of a text that is not RON.
-fn items(text: &str) -> impl Iterator<Item = (&'static str, &RawValue)> {
-    let places: Option<RawAssignment> = options().from_str(text).ok();
-    let items = places.map(|RawAssignment { version, world, robot, start, goal, stay, limits, points, seeds }| {
-        [
-            ("version", version),
-            ("world", world),
-            ("robot", robot),
-            ("start", start),
-            ("goal", goal),
-            ("stay", stay),
-            ("limits", limits),
-            ("points", points),
-            ("seeds", seeds),
-        ]
-    });
-    items.into_iter().flatten().filter_map(|(item, part)| Some((item, part?)))
-}
-
-/// The line in which an item begins, from 1; line 1 for a missing item.
-fn line_of(text: &str, item: &str) -> usize {
-    let part = items(text).find(|(name, _)| *name == item);
-    part.map_or(1, |(_, part)| line_at(text, offset_of(text, part.trim().get_ron())))
-}
-
-/// The item in which the reader found an error; empty where it is in none.
-fn item_of(text: &str, error: &SpannedError) -> &'static str {
-    let byte = byte_at(text, begin_of(error));
-    let holds = |part: &RawValue| {
-        let begin = offset_of(text, part.get_ron());
-        // an error in an item's first word begins at the colon before it, one of its whole may begin at its end
-        (begin.saturating_sub(1)..=begin + part.get_ron().len()).contains(&byte)
-    };
-    let found = items(text).find(|(_, part)| holds(part)).map_or("", |(item, _)| item);
-    match &error.code {
-        // what is missing of the whole is noticed at its end, which may be in the last item's blanks
-        ron::Error::MissingStructField { outer: Some(outer), .. } if outer == "Assignment" => "",
-        _ => found,
+/// The chart difference of two configurations of this kind. A kind that nobody described is compared coordinate by
+/// coordinate.
+pub(super) fn difference(about: Option<&RobotKind>, from: &[f64], to: &[f64]) -> Option<Coordinates> {
+    match about {
+        Some(known) => (known.difference)(from, to),
+        None => (from.len() == to.len()).then(|| from.iter().zip(to).map(|(a, b)| b - a).collect()),
     }
 }
 
@@ -302,6 +210,7 @@ pub struct Assignment {
     stay: Stay,
     limits: Limits,
     points: Option<Points>,
+    set_trailer: bool,
     seeds: Vec<Seed>,
     added: AddedKinds,
     about: Option<&'static RobotKind>,
@@ -348,6 +257,19 @@ impl Assignment {
         self.points
     }
 
+    /// Whether a submission may drop a trailer and take it again.
+    pub fn may_set_trailer(&self) -> bool {
+        self.set_trailer
+    }
+
+    /// Whether a configuration is at the goal, angles the short way round. One of another space (with a trailer, when
+    /// the goal has none) is not.
+    pub(super) fn is_at_goal(&self, q: &[f64]) -> bool {
+        difference(self.about, &self.goal.at, q).is_some_and(|d| {
+            d.len() == self.goal.within.len() && d.iter().zip(&self.goal.within).all(|(d, within)| d.abs() <= *within)
+        })
+    }
+
     /// The limits.
     pub fn limits(&self) -> Limits {
         self.limits
@@ -358,10 +280,20 @@ impl Assignment {
         &self.seeds
     }
 
-    /// Begins a run of the assignment, at tick 0.
+    /// Begins a run of the assignment, at tick 0. Robots that nobody drives stand, but for others than the graded one
+    /// that follow a route of their world.
     pub(super) fn begin(&self, seed: Seed, script: &Script) -> Result<Recorder, RunError> {
         let config = TourConfig { worlds: vec![self.world.clone()], ticks: self.limits.ticks, sensor: None };
-        Recorder::with_robots(config, (seed, script.clone()), |app| self.added.add_to(app))
+        Recorder::with_robots(config, (seed, script.clone()), |app| {
+            self.added.add_to(app);
+            app.insert_resource(self.standing());
+        })
+    }
+
+    fn standing(&self) -> StandingRobots {
+        let robots = self.world.robots.iter().zip(0_u32..);
+        let stands = robots.filter(|(robot, id)| robot.route.is_none() || usize::try_from(*id) == Ok(self.number));
+        StandingRobots(stands.map(|(_, id)| RobotId(id)).collect())
     }
 
     /// Simulates a log's run again and compares it, with the assignment's kinds of robots.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::assignment::difference;
 use super::{Assignment, When};
 use motion_lab_core::configuration::{Configuration as _, Coordinates, RobotKind};
 use motion_lab_core::geometry::Pose2;
@@ -131,7 +132,7 @@ impl Attempt {
                 reversals = reversals.saturating_add(u32::from(ahead.is_some_and(|a| a != way)));
                 ahead = Some(way);
             }
-            there = if is_within(assignment, &state.configuration) { there + 1 } else { 0 };
+            there = if assignment.is_at_goal(&state.configuration) { there + 1 } else { 0 };
             was_there |= there > 0;
             before.clone_from(&state.configuration);
             let (contacts, configuration) = (state.contacts, &before);
@@ -176,24 +177,6 @@ fn way(about: Option<&RobotKind>, before: &[f64], after: &[f64]) -> Option<bool>
     let pose = |q: &[f64]| Pose2::from_coordinates(q.get(..3)?);
     let dx = pose(after)?.boxminus(&pose(before)?).dx;
     (dx.abs() > CREEP).then_some(dx > 0.0)
-}
-
-/// Whether a configuration is at the goal. A configuration of another space (with a trailer, when the goal has none) is
-/// not.
-fn is_within(assignment: &Assignment, q: &[f64]) -> bool {
-    let goal = assignment.goal();
-    difference(assignment.about(), &goal.at, q).is_some_and(|d| {
-        d.len() == goal.within.len() && d.iter().zip(&goal.within).all(|(d, within)| d.abs() <= *within)
-    })
-}
-
-/// The chart difference of two configurations of this kind. A kind that nobody described is compared coordinate by
-/// coordinate.
-fn difference(about: Option<&RobotKind>, from: &[f64], to: &[f64]) -> Option<Coordinates> {
-    match about {
-        Some(known) => (known.difference)(from, to),
-        None => (from.len() == to.len()).then(|| from.iter().zip(to).map(|(a, b)| b - a).collect()),
-    }
 }
 
 #[cfg(test)]

@@ -62,6 +62,15 @@ pub enum AssignmentProblem {
     /// The robot would be in contact at the start, or at the goal.
     #[error("there the robot touches {0}")]
     Touches(String),
+    /// A start or a goal outside the world, or a robot that is larger than it.
+    #[error(transparent)]
+    Outside(#[from] motion_lab_core::worlds::OutsideError),
+    /// A length in degrees.
+    #[error(transparent)]
+    Degrees(#[from] motion_lab_core::configuration::WrittenCoordinateError),
+    /// A start that lies within the goal's tolerances.
+    #[error("the robot is there at the start: whoever does nothing would pass")]
+    AtStart,
     /// The numbers of coordinates and tolerances differ.
     #[error("{coordinates} coordinates, {tolerances} tolerances: there must be one for each")]
     Tolerances {

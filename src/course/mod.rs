@@ -3,6 +3,10 @@
 //! A submission is a script, or a log, which holds a script. The script is run at every seed of the assignment. A log's
 //! frames are not trusted: its run is simulated again, and a log whose frames differ is refused as forged.
 //!
+//! A robot that the script does not drive stands; it tours in no assignment. Other robots of the world that follow a
+//! route go on. Teleports and changes of the world are refused, and so is dropping or taking a trailer unless the
+//! assignment says `set_trailer: true`.
+//!
 //! ```
 //! use motion_lab::recording::{AssignmentFile, Submission};
 //! use motion_lab::run::Script;
@@ -17,6 +21,7 @@
 //!     stay: (hold: 20, at: end),                        // left out: once there, however shortly, it has passed
 //!     limits: (ticks: 200, contacts: 0, reversals: 0),  // the last two may be left out
 //!     points: (goal: 6, contacts: 2, reversals: 2),     // left out: 1 point for passing
+//!     set_trailer: false,                               // left out: the same, no trailer is dropped or taken
 //!     seeds: "0..10",                                   // or a list: [1, 2005]
 //! )"#;
 //! let file = AssignmentFile::parse("forward.ron", text)?;
@@ -33,6 +38,7 @@
 
 mod added_kinds;
 mod assignment;
+mod assignment_text;
 mod attempt;
 mod error;
 mod points;
@@ -40,7 +46,8 @@ mod score;
 mod seeds;
 mod stay;
 
-pub use assignment::{Assignment, AssignmentFile, Goal, Limits};
+pub use assignment::{Assignment, AssignmentFile};
+pub use assignment_text::{Goal, Limits};
 pub use attempt::{Attempt, AttemptOutcome, GoalDistance, Met};
 pub use error::{AssignmentError, AssignmentProblem, MAX_SEEDS};
 pub use points::Points;
@@ -73,6 +80,12 @@ pub enum Refusal {
     /// The script contains a teleport, which assignments do not allow.
     #[error("events[{0}]: a teleport is not allowed")]
     Teleport(usize),
+    /// The script drops or takes a trailer, which the assignment does not allow.
+    #[error(
+        "events[{0}]: SetTrailer is not allowed: it puts a trailer straight behind its car, wherever that was; \
+         the assignment would have to say set_trailer: true"
+    )]
+    Trailer(usize),
     /// The run of a log, or of an assignment, cannot start.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -156,9 +169,12 @@ impl Assignment {
         if !script.changes.is_empty() {
             return Err(Refusal::Change);
         }
-        match script.events.iter().position(|event| matches!(event.input, RobotInput::Teleport(_))) {
-            Some(event) => Err(Refusal::Teleport(event)),
-            None => Ok(()),
+        if let Some(event) = script.events.iter().position(|event| matches!(event.input, RobotInput::Teleport(_))) {
+            return Err(Refusal::Teleport(event));
+        }
+        match script.events.iter().position(|event| matches!(event.input, RobotInput::SetTrailer(_))) {
+            Some(event) if !self.may_set_trailer() => Err(Refusal::Trailer(event)),
+            _ => Ok(()),
         }
     }
 }

@@ -44,7 +44,7 @@ impl RunParts {
 
     fn recipe(&self) -> Result<Recipe, PartsError> {
         let seed = self.seed.parse().map_err(|_| PartsError::Seed(self.seed.clone()))?;
-        let parse = |text: &String| World::parse("the world", text);
+        let parse = |text: &String| World::parse_recorded("the world", text);
         let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
         let mut script = Script::parse("the script", &self.script)?;
         script.truncate_after(self.ticks);

@@ -84,6 +84,10 @@ fn json(line: &str) -> serde_json::Value {
     serde_json::from_str(line).unwrap()
 }
 
+/// A world of two rooms without a door between them, and a rover in the left one.
+pub const SHUT: &str = r#"World(version: 1, name: "shut", bounds: (min: (0, 0), max: (4, 4)),
+    walls: [(name: "between", points: [(2, 0), (2, 4)])], robots: [(name: "R", kind: "rusty", start: [1, 1, 0])])"#;
+
 #[test]
 fn help_tells_the_exit_codes() {
     let help = run(&["--help"]).done();

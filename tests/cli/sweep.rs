@@ -2,6 +2,7 @@
 
 mod care;
 mod planner;
+mod trust;
 
 use std::fs;
 use std::path::Path;

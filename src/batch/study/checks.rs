@@ -6,7 +6,7 @@ use crate::batch::error::SweepProblem;
 use crate::batch::parameter::{Parameter, RobotParameter, Sources};
 use crate::batch::study_text::{GoalText, StudyItem, StudyText};
 use crate::batch::values::Over;
-use motion_lab_core::configuration::{RobotKind, Sizes};
+use motion_lab_core::configuration::{RobotKind, Sizes, WrittenCoordinate};
 use motion_lab_core::names::nearest;
 use motion_lab_core::worlds::{BeamModel, Resident, World, WorldProblem};
 
@@ -29,7 +29,8 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
     if let Some(robot) = study.robots.iter().find(|name| find(name).is_none()) {
         return Err((StudyItem::Robots, unknown(robot)));
     }
-    let Some(GoalText { robot, at, within }) = &study.goal else { return Ok(()) };
+    let Some(goal @ GoalText { robot, .. }) = &study.goal else { return Ok(()) };
+    let (at, within) = (&goal.at(), &goal.within());
     let Some(resident) = find(robot).filter(|_| study.keeps(robot)) else {
         return Err((StudyItem::Goal, unknown(robot)));
     };
@@ -37,13 +38,30 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
     if coordinates != expected || tolerances != expected {
         return Err((StudyItem::Goal, SweepProblem::Goal { coordinates, tolerances, expected }));
     }
+    let lengths = RobotKind::of(&resident.kind).map_or(0, |known| known.lengths);
+    for written in [&goal.at, &goal.within] {
+        WrittenCoordinate::values(written, lengths)
+            .map_err(|reason| (StudyItem::Goal, SweepProblem::Length(reason)))?;
+    }
     if let Some(wrong) = at.iter().chain(within).find(|x| !x.is_finite()) {
         return Err((StudyItem::Goal, SweepProblem::NotFinite(*wrong)));
     }
-    match within.iter().find(|tolerance| **tolerance < 0.0) {
-        Some(wrong) => Err((StudyItem::Goal, SweepProblem::Tolerance(*wrong))),
-        None => Ok(()),
+    if let Some(wrong) = within.iter().find(|tolerance| **tolerance < 0.0) {
+        return Err((StudyItem::Goal, SweepProblem::Tolerance(*wrong)));
     }
+    check_goal(robot, at, worlds).map_err(|problem| (StudyItem::Goal, problem))
+}
+
+/// Checks that the goal lies within some world of its robot. Where an axis chooses another world, the row says so.
+fn check_goal(robot: &str, at: &[f64], worlds: &[&World]) -> Result<(), SweepProblem> {
+    let residents = worlds.iter().flat_map(|world| world.robots.iter().map(move |resident| (world, resident)));
+    let own = residents.filter(|(_, resident)| resident.name == robot);
+    let mut checked = own.map(|(world, resident)| world.check_position(&resident.kind, "goal", at)).peekable();
+    let first = checked.peek().cloned();
+    if checked.any(|within| within.is_ok()) {
+        return Ok(());
+    }
+    first.unwrap_or(Ok(())).map_err(SweepProblem::Outside)
 }
 
 /// Checks that a study with a planner says who goes where, and nothing else that drives its robot.
@@ -95,12 +113,19 @@ pub fn make_axes(study: &StudyText, worlds: &[&World]) -> Result<Vec<CheckedAxis
 }
 
 /// Checks that each start has the number of coordinates of some robot of this name.
-fn check_starts(starts: &[Vec<f64>], robots: &[&Resident], robot: &str) -> Result<(), SweepProblem> {
-    for (index, start) in starts.iter().enumerate() {
-        let reason = |known: &&Resident| match Resident::try_new(robot, known.kind.clone(), start.clone(), None) {
-            Err(problem @ WorldProblem::Start { .. }) => Some(problem.to_string()),
-            // a start elsewhere, as beyond the lab, is for the row to say
-            _ => None,
+fn check_starts(starts: &[Vec<WrittenCoordinate>], robots: &[&Resident], robot: &str) -> Result<(), SweepProblem> {
+    for (index, written) in starts.iter().enumerate() {
+        let reason = |known: &&Resident| {
+            let lengths = RobotKind::of(&known.kind).map_or(0, |kind| kind.lengths);
+            let start = match WrittenCoordinate::values(written, lengths) {
+                Ok(start) => start,
+                Err(problem) => return Some(problem.to_string()),
+            };
+            match Resident::try_new(robot, known.kind.clone(), start, None) {
+                Err(problem @ WorldProblem::Start { .. }) => Some(problem.to_string()),
+                // a start elsewhere, as beyond the lab, is for the row to say
+                _ => None,
+            }
         };
         let reasons: Option<Vec<String>> = robots.iter().filter(|known| known.name == robot).map(reason).collect();
         if let Some(reason) = reasons.and_then(|reasons| reasons.into_iter().next()) {

@@ -80,13 +80,14 @@ impl PlannerText {
     /// The planning of a run in these worlds, in which the goal's robot is alone.
     pub fn planning(&self, goal: Option<&GoalText>, worlds: &[World]) -> Result<Planning, String> {
         let PlannerText { name, iterations, tube } = self;
-        let GoalText { robot, at, .. } = goal.ok_or("a planner needs a goal")?;
+        let goal = goal.ok_or("a planner needs a goal")?;
+        let robot = &goal.robot;
         let residents: Vec<&Resident> = worlds.iter().flat_map(|world| &world.robots).collect();
         let kind = match residents[..] {
             [resident] if resident.name == *robot => &resident.kind,
             _ => return Err(format!("a planner's robot is alone in its run: write robots: [{robot:?}]")),
         };
-        let placed = Resident::try_new(robot, kind.clone(), at.clone(), None);
+        let placed = Resident::try_new(robot, kind.clone(), goal.at(), None);
         let goal = placed.map_err(|problem| format!("the goal: {problem}"))?.start;
         if !(0.0..=1.0).contains(tube) {
             return Err(format!("planner.tube: {tube} m: it must be from 0 to 1 m"));

@@ -15,10 +15,10 @@ use super::study_text::{Bundle, FORMAT, GoalText, StudyItem, StudyText, digest_o
 use super::values::AxisValue;
 use checks::{check, check_planner, check_robots, make_axes, planned_unit, robot_columns};
 use draft::{RunDraft, generated};
-use motion_lab_core::configuration::{Kinds, RobotKind};
+use motion_lab_core::configuration::{Kinds, RobotKind, WrittenCoordinate};
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
-use motion_lab_core::worlds::World;
+use motion_lab_core::worlds::{OutsideError, World};
 use motion_lab_sim::run::{Digest, Script};
 use motion_lab_sim::tour::TourConfig;
 
@@ -91,7 +91,7 @@ impl Study {
         let whole = |problem: String| (StudyItem::Whole, SweepProblem::Run(problem));
         let mut worlds = BTreeMap::new();
         for (name, text) in &bundle.worlds {
-            worlds.insert(name.clone(), World::parse(name, text).map_err(|error| whole(error.to_string()))?);
+            worlds.insert(name.clone(), World::parse_recorded(name, text).map_err(|error| whole(error.to_string()))?);
         }
         let mut scripts = BTreeMap::new();
         for (name, text) in &bundle.scripts {
@@ -149,6 +149,19 @@ impl Study {
         table_heading(&self.columns)
     }
 
+    /// What the writer of the study may have meant by angles of more than a turn: a sentence for each axis, and for the
+    /// goal, that has some.
+    pub fn turns(&self) -> Vec<String> {
+        let of_axis = |axis: &CheckedAxis| Some(format!("{}: {}", axis.parameter.name(), axis.turns()?));
+        let of_goal = || {
+            let GoalText { robot, at, .. } = self.goal()?;
+            let resident = self.worlds.values().flat_map(|world| &world.robots).find(|known| known.name == *robot)?;
+            let lengths = RobotKind::of(&resident.kind)?.lengths;
+            Some(format!("goal: {}", WrittenCoordinate::all_turns(at, lengths).next()?))
+        };
+        self.axes.iter().filter_map(of_axis).chain(of_goal()).collect()
+    }
+
     /// The names of the axes and the numbers of their values; `None` for a range without steps.
     pub fn axes(&self) -> impl Iterator<Item = (String, Option<u64>)> {
         self.axes.iter().map(|axis| (axis.parameter.name(), axis.len()))
@@ -194,6 +207,11 @@ impl Study {
             let Some(reason) = check(&resident.kind, resident.sizes.as_ref(), resident.sensor) else { continue };
             return Err(format!("{}: {reason}", resident.name));
         }
+        for world in &worlds {
+            let refused = |(i, reason): (usize, OutsideError)| format!("{}: {reason}", world.robots[i].name);
+            world.check_residents().map_err(refused)?;
+        }
+        self.check_goal(&worlds)?;
         let inputs = match (&draft.planner, &draft.script) {
             (Some(planner), _) => RunInputs::Planner(planner.planning(self.goal(), &worlds)?),
             (None, None) => RunInputs::Script(Script::empty()),
@@ -205,6 +223,16 @@ impl Study {
         let config = TourConfig { worlds, ticks: draft.ticks, sensor: draft.sensor };
         config.validate().map_err(|error| error.to_string())?;
         Ok(RunSetup { seed: Seed(draft.seed), config, inputs })
+    }
+
+    /// Checks that the goal lies within the world of its robot.
+    fn check_goal(&self, worlds: &[World]) -> Result<(), String> {
+        let Some(goal @ GoalText { robot, .. }) = self.goal() else { return Ok(()) };
+        let at = &goal.at();
+        let residents = worlds.iter().flat_map(|world| world.robots.iter().map(move |resident| (world, resident)));
+        let mut own = residents.filter(|(_, resident)| resident.name == *robot);
+        own.try_for_each(|(world, resident)| world.check_position(&resident.kind, "goal", at))
+            .map_err(|reason| format!("{robot}: {reason}"))
     }
 
     /// Checks that there is a run that can be, in studies of at most [`MAX_TRIED`] runs.
@@ -249,6 +277,27 @@ impl Study {
         }
         let head = [row, draft.seed, draft.ticks].map(RowValue::Whole);
         head.into_iter().chain(cells).collect()
+    }
+
+    /// The first column in which a row says another run than the study has in that row: its number, seed, length, or a
+    /// value of an axis. `None` where it says the study's own.
+    ///
+    /// ```
+    /// use motion_lab::batch::{RowValue, StudyFile};
+    /// let text = "Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(10, 13))])";
+    /// let worlds = [("lot".to_owned(), motion_lab::worlds::World::lot())].into();
+    /// let study = StudyFile::parse("study.ron", text)?.with(&worlds, &[].into())?;
+    /// let mut row = study.failed(2, "made up");
+    /// assert_eq!(study.contradicted(&row), None);
+    /// row.cells[1] = RowValue::Whole(11);
+    /// assert_eq!(study.contradicted(&row).unwrap().0.name, "seed");
+    /// # Ok::<(), motion_lab::batch::StudyError>(())
+    /// ```
+    pub fn contradicted(&self, row: &RunRow) -> Option<(&Column, RowValue)> {
+        let own = self.parameters(row.row);
+        let differs = |(i, cell): &(usize, RowValue)| row.cells.get(*i).map(RowValue::to_text) != Some(cell.to_text());
+        let (i, cell) = own.into_iter().enumerate().find(differs)?;
+        Some((self.columns.get(i)?, cell))
     }
 
     /// The row of a run that could not be run, with the reason.

@@ -8,12 +8,14 @@ use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, Type
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command, Error};
 use motion_lab::capture::CaptureForm;
-use motion_lab::configuration::RobotKind;
+use motion_lab::configuration::{RobotKind, WrittenCoordinate};
 use motion_lab::names::nearest;
 use motion_lab::picture::Theme;
 use motion_lab::plans::CheckerName;
 use motion_lab::run::LogKind;
 use motion_lab::worlds::World;
+
+use super::console::note;
 
 /// A built-in world's name, or the path of a file.
 #[derive(Clone, Copy, Debug)]
@@ -37,16 +39,34 @@ pub const CHOSET: &str = "choset";
 pub const KINDS: [&str; 5] =
     [RobotKind::RUSTY.name, RobotKind::REACH.name, CHOSET, RobotKind::REACH3.name, RobotKind::HITCH.name];
 
-/// Numbers joined by commas.
+/// Numbers joined by commas: the coordinates of a configuration.
 #[derive(Clone, Debug)]
-pub struct NumberList(pub Vec<f64>);
+pub struct NumberList(pub Vec<WrittenCoordinate>);
+
+impl NumberList {
+    /// The values, of which the first, this many, are lengths. Angles that were hardly meant are noted.
+    pub fn values(&self, lengths: usize) -> Result<Vec<f64>, String> {
+        values(&self.0, lengths)
+    }
+}
+
+/// The values of coordinates, of which the first, this many, are lengths. Angles that were hardly meant are noted.
+pub fn values(written: &[WrittenCoordinate], lengths: usize) -> Result<Vec<f64>, String> {
+    WrittenCoordinate::all_turns(written, lengths).for_each(note);
+    WrittenCoordinate::values(written, lengths).map_err(|reason| reason.to_string())
+}
+
+/// The number of lengths that the coordinates of a kind begin with; none of a kind that the lab does not have.
+pub fn lengths_of(kind: &str) -> usize {
+    RobotKind::of(kind).map_or(0, |known| known.lengths)
+}
 
 impl FromStr for NumberList {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
         let number =
-            |n: &str| n.trim().parse().map_err(|_| format!("{n:?} is no number; join numbers by commas: 0.785,1.571"));
+            |n: &str| n.parse().map_err(|_| format!("{n:?} is no number; join numbers by commas: 0.785,90deg"));
         text.split(',').map(number).collect::<Result<_, _>>().map(NumberList)
     }
 }

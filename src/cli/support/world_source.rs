@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use motion_lab::names::did_you_mean;
-use motion_lab::worlds::World;
+use motion_lab::worlds::{World, turns};
 
+use super::console::note;
 use super::input::{MAX_WORLD, is_dash, read_text_of, shown};
 use crate::cli::Failure;
 
@@ -36,6 +37,9 @@ pub fn find_world_beside(file: &Path, name: &str) -> Result<World, Failure> {
 /// The world in a file.
 pub fn read_world(path: &Path) -> Result<World, Failure> {
     let text = read_text_of(path, MAX_WORLD)?;
+    for turns in turns(&text) {
+        note(format!("{}: {turns}", shown(path)));
+    }
     World::parse(&shown(path), &text).map_err(|error| {
         Failure::input(error, "Correct it there. `motion-lab world show apartment` prints a world file to go by.")
     })

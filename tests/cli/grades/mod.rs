@@ -1,4 +1,5 @@
 //! Grading.
 
+pub mod gaming;
 pub mod grade;
 pub mod gradebook;

@@ -8,7 +8,7 @@ use motion_lab::num::{cos, sin};
 use motion_lab::picture::{Rgb, Role, Theme};
 use motion_lab::prelude::*;
 
-use crate::cli::{json, run, run_in};
+use crate::cli::{SHUT, json, run, run_in};
 
 const ROUND_THE_POST: [&str; 7] = ["plan", "--robot", "reach", "--from", "2.0,0", "--to", "3.1,0"];
 
@@ -161,11 +161,17 @@ fn what_has_no_path_is_said_and_is_code_4() {
     assert!(in_the_block.contains("no path: the start would overlap the block"), "{in_the_block}");
     let in_a_wall = none(&["--robot", "rusty", "--to", "4.5,4.75"]);
     assert!(in_a_wall.contains("the goal would overlap"), "{in_a_wall}");
-    // the far side of the world's wall: free, and out of reach
     let outside = none(&["--robot", "rusty", "--from", "2.25,6.25", "--to", "-3,6", "--iterations", "300"]);
-    assert!(outside.starts_with("motion-lab: no path within the bound on iterations: 300 iterations"), "{outside}");
-    assert!(outside.contains("allow more --iterations"), "{outside}");
-    let as_json = run(&["plan", "--robot", "rusty", "--to", "-3,6", "--iterations", "30", "--json"]);
+    assert!(outside.starts_with("motion-lab: no path: the goal (-3, 6) lies outside the world"), "{outside}");
+    // the far side of a wall: free, and out of reach
+    let folder = tempfile::tempdir().unwrap();
+    let shut = folder.path().join("shut.ron");
+    fs::write(&shut, SHUT).unwrap();
+    let behind = ["--world", shut.to_str().unwrap(), "--robot", "R", "--to", "3,1"];
+    let beyond = none(&[&behind[..], &["--iterations", "300"]].concat());
+    assert!(beyond.starts_with("motion-lab: no path within the bound on iterations: 300 iterations"), "{beyond}");
+    assert!(beyond.contains("allow more --iterations"), "{beyond}");
+    let as_json = run(&[&["plan"], &behind[..], &["--iterations", "30", "--json"]].concat());
     let answer = json(&as_json.out);
     assert_eq!((as_json.code, &answer["solved"]), (Some(4), &false.into()));
     assert_eq!(answer["effort"]["iterations"], 30);
@@ -253,7 +259,36 @@ fn planners_are_compared_in_a_table_and_in_rows() {
     let line = |planner: &str| table.lines().find(|line| line.starts_with(planner)).unwrap().to_owned();
     assert!(line("bug2").contains("0 of 2") && line("prm").contains("2 of 2"), "{table}");
     assert!(line("rrt ").contains("2 of 2"), "{table}");
-    let none = ["plan", "--robot", "rusty", "--to", "-3,6", "--iterations", "20", "--compare", "rrt-connect"];
-    let none = run(&[&none[..], &["--seeds", "0..2"]].concat());
+    let shut = folder.path().join("shut.ron");
+    fs::write(&shut, SHUT).unwrap();
+    let none = ["plan", "--world", shut.to_str().unwrap(), "--robot", "R", "--to", "3,1", "--iterations", "20"];
+    let none = run(&[&none[..], &["--compare", "rrt-connect", "--seeds", "0..2"]].concat());
     assert!(none.code == Some(4) && none.out.contains("0 of 2"), "{} {}", none.out, none.err);
+}
+
+#[test]
+fn rrt_star_shortens_its_path_as_long_as_it_is_let() {
+    let length = |more: &[&str]| {
+        let arguments =
+            ["plan", "--json", "--planner", "rrt-star", "--robot", "Rusty", "--from", "3,5.5", "--to", "9.75,6.25"];
+        let answer = json(&run(&[&arguments[..], more].concat()).done());
+        (answer["length"].as_f64().unwrap(), answer["effort"]["iterations"].as_u64().unwrap())
+    };
+    let (first, few, many) = (length(&[]), length(&["--iterations", "1500"]), length(&["--iterations", "4000"]));
+    assert!(first.1 < 1500 && few.1 == 1500 && many.1 == 4000, "{first:?} {few:?} {many:?}");
+    assert!(first.0 > few.0 && few.0 > many.0, "{first:?} {few:?} {many:?}");
+    // never shorter than the straight line: sqrt(6.75^2 + 0.75^2)
+    assert!(many.0 > 6.791, "{many:?}");
+}
+
+#[test]
+fn a_rover_that_is_there_has_no_way_to_go() {
+    for planner in ["rrt", "rrt-connect", "rrt-star", "a-star", "visibility-graph", "bug2"] {
+        let answer = json(
+            &run(&["plan", "--json", "--planner", planner, "--robot", "Rusty", "--from", "3,5.5", "--to", "3,5.5"])
+                .done(),
+        );
+        assert_eq!((&answer["solved"], answer["length"].as_f64()), (&true.into(), Some(0.0)), "{planner}: {answer}");
+        assert_eq!(answer["legs"], 0, "{planner}: {answer}");
+    }
 }

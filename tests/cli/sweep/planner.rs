@@ -154,11 +154,12 @@ fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
 #[cfg(unix)]
 #[test]
 fn a_planner_at_work_is_stopped() {
-    // a goal outside the walls, and more iterations than anybody waits for
+    // a goal behind a wall, and more iterations than anybody waits for
     let folder = folder_with(
-        "Sweep(version: 1, worlds: [\"apartment\"], planner: (name: \"rrt\", iterations: 1000000000), \
-         goal: (robot: \"Rusty\", at: [-3, 6, 0], within: [1, 1, 4]))",
+        "Sweep(version: 1, worlds: [\"shut.ron\"], planner: (name: \"rrt\", iterations: 1000000000), \
+         goal: (robot: \"R\", at: [3, 1, 0], within: [1, 1, 4]))",
     );
+    fs::write(folder.path().join("shut.ron"), crate::cli::SHUT).unwrap();
     let begin = std::time::Instant::now();
     let stopped = interrupted(folder.path(), &["sweep", "plan.ron", "-o", "parts"], "-INT", || {
         begin.elapsed().as_millis() > 1000

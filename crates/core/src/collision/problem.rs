@@ -7,6 +7,7 @@ use super::Checker;
 use crate::configuration::Configuration;
 use crate::random::{Seed, Stream};
 use crate::robots::{ConfigurationError, Robot};
+use crate::worlds::OutsideError;
 
 /// A set of configurations, any of which is good enough as a goal.
 pub trait GoalRegion<C>: Debug + Send + Sync {
@@ -15,6 +16,10 @@ pub trait GoalRegion<C>: Debug + Send + Sync {
 }
 
 /// A planning problem: a robot in a scene, from a start to a goal, with a seeded stream of samples.
+///
+/// Start, goal and every path between them lie within the scene's bounds, whose sides belong to them: the robot's
+/// [position](Robot::position) does, all the way. Its footprint may reach over them. A robot without a position, as an
+/// arm, is not held by them.
 #[derive(Clone, Debug)]
 pub struct Problem<R: Robot> {
     checker: Checker<R>,
@@ -42,6 +47,9 @@ pub enum ProblemError {
         /// `start` or `goal`.
         end: &'static str,
     },
+    /// The start or the goal lies outside the scene's bounds.
+    #[error(transparent)]
+    Outside(#[from] OutsideError),
     /// The goal does not lie in its own region.
     #[error("the goal does not lie in its own region")]
     OutsideRegion,
@@ -59,7 +67,8 @@ impl<R: Robot> Problem<R> {
     /// The problem of moving the robot from `start` to `goal`; samples come from the stream `planner` of `seed`.
     ///
     /// # Errors
-    /// [`ProblemError`] when either end is not one of the robot's configurations or is not free.
+    /// [`ProblemError`] when either end is not one of the robot's configurations, is not free, or lies outside the
+    /// scene's bounds.
     pub fn try_new(
         checker: Checker<R>,
         start: R::Configuration,
@@ -67,6 +76,9 @@ impl<R: Robot> Problem<R> {
         seed: Seed,
     ) -> Result<Self, ProblemError> {
         for (end, q) in [("start", &start), ("goal", &goal)] {
+            if let Some(at) = checker.robot().position(q).filter(|at| at.x.is_finite() && at.y.is_finite()) {
+                OutsideError::check(end, at, &checker.scene().bounds())?;
+            }
             let witness = checker.witness(q).map_err(|source| ProblemError::Configuration { end, source })?;
             if let Some(w) = witness.filter(|w| w.dist == 0.0) {
                 let obstacle = checker.scene().obstacle_name(w.obstacle).unwrap_or("an obstacle").to_owned();

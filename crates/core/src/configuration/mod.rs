@@ -54,6 +54,7 @@ mod pose;
 mod r2;
 mod sizes;
 mod torus;
+mod written;
 
 pub use any::AnyConfiguration;
 pub use chart::Chart;
@@ -66,3 +67,4 @@ pub use kinds::Kinds;
 pub use r2::R2;
 pub use sizes::{ArmSizes, CarSizes, DiscSizes, MAX_SIZE, MAX_STEER, MIN_AXLES, Sizes, SizesError, TrailerSizes};
 pub use torus::{T2, Tn};
+pub use written::{WrittenCoordinate, WrittenCoordinateError};

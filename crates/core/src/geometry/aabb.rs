@@ -50,6 +50,11 @@ impl Aabb {
         self.min + (self.max - self.min) * 0.5
     }
 
+    /// Whether a point lies in the box, whose sides belong to it.
+    pub fn contains(&self, p: Point2) -> bool {
+        (self.min.x..=self.max.x).contains(&p.x) && (self.min.y..=self.max.y).contains(&p.y)
+    }
+
     /// Whether the two boxes have no point in common; boxes that touch have one.
     pub fn is_apart(&self, other: &Aabb) -> bool {
         self.max.x < other.min.x || other.max.x < self.min.x || self.max.y < other.min.y || other.max.y < self.min.y
@@ -97,6 +102,8 @@ mod tests {
         assert_eq!(around, Aabb::new(Point2::new(-3.0, -2.0), Point2::new(1.0, 4.0)));
         assert_eq!(around.centre(), Point2::new(-1.0, 1.0));
         assert_eq!(Aabb::around(&[]), None);
+        assert!(points.iter().all(|p| around.contains(*p)) && !around.contains(Point2::new(1.000_000_1, 0.0)));
+        assert!(!around.contains(Point2::new(0.0, -2.000_000_1)) && !around.contains(Point2::new(f64::NAN, 0.0)));
         let beside = |x: f64| Aabb::new(Point2::new(x, 0.0), Point2::new(x + 1.0, 1.0));
         assert!(!around.is_apart(&beside(1.0)) && !beside(1.0).is_apart(&around), "they touch");
         assert!(around.is_apart(&beside(1.000_000_1)) && beside(1.000_000_1).is_apart(&around));

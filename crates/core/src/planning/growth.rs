@@ -2,7 +2,7 @@
 
 use super::{Effort, LinePath};
 use crate::collision::{Checker, EdgeVerdict, HitBy, Witness};
-use crate::robots::{ChartLine, Motion, Robot};
+use crate::robots::{ChartLine, Motion, Robot, stays_within};
 
 /// A configuration that a planner has reached or placed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,8 @@ impl<C: Copy, M: Motion<Configuration = C>> Growth<C, M> {
         self.rejected.as_ref()
     }
 
-    /// What the motion that was rejected last hits, with the witness. It is computed when asked for, so planning
+    /// What the motion that was rejected last hits, with the witness; `None` too where it would leave the bounds and is
+    /// free. It is computed when asked for, so planning
     /// does not pay for it.
     pub fn rejection<R: Robot<Configuration = C>>(&self, checker: &Checker<R>) -> Option<Rejection<C>> {
         let motion = self.rejected.as_ref()?;
@@ -104,9 +105,11 @@ impl<C: Copy, M: Motion<Configuration = C>> Growth<C, M> {
         self.effort.samples += 1;
     }
 
-    /// Asks whether a motion is proven free, counts it, and keeps it if it is rejected.
+    /// Asks whether a motion is proven free and keeps within the scene's bounds, counts it, and keeps it if it is
+    /// rejected.
     pub fn ask<R: Robot<Configuration = C>>(&mut self, checker: &Checker<R>, motion: M) -> bool {
-        let free = checker.motion_free(&motion);
+        let bounds = checker.scene().bounds();
+        let free = stays_within(checker.robot(), &motion, &bounds) && checker.motion_free(&motion);
         self.effort.edges += 1;
         self.effort.free += u64::from(free);
         if !free {

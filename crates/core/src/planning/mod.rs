@@ -15,6 +15,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! One rule holds for all of them: a path lies within the scene's bounds, whose sides belong to them. The robot's
+//! [position](crate::robots::Robot::position), a rover's centre or the middle of a car's rear axle, stays within them
+//! all the way; the footprint may reach over them. A [`Problem`](crate::collision::Problem) refuses ends outside, a
+//! [`Growth`] asks about no motion that leaves them, and [`solve`] accepts none.
+//!
 //! A planner of one's own implements [`Planner`]; it then runs, is bounded and is checked as those here.
 
 mod bounds;

@@ -79,6 +79,9 @@ pub enum PathError {
         /// Where its proof ends, in `[0, 1]`.
         until: f64,
     },
+    /// A leg that leaves the bounds of the problem's scene.
+    #[error("leg {0} leaves the world's bounds")]
+    Outside(usize),
     /// A path that does not lead from the problem's start to its goal.
     #[error("the path does not lead from the start to the goal")]
     OtherEnds,

@@ -5,7 +5,7 @@ use super::{
 };
 use crate::collision::Problem;
 use crate::cspace::CellMap;
-use crate::robots::{ChartLine, Motion, Robot};
+use crate::robots::{ChartLine, Motion, Robot, stays_within};
 
 /// A planner: it works on one problem, an iteration at a time, and shows what it has grown.
 ///
@@ -73,8 +73,8 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> + 'stati
 /// Runs a planner until it has a path, has ended or has reached a bound.
 ///
 /// The path is checked once more before it is returned, whoever wrote the planner: it leads from the problem's start to
-/// its goal, and the verifier accepts its certificates in the problem's scene. The iterations are counted here too, so
-/// a planner that counts nothing is bounded as well.
+/// its goal, it keeps within the scene's bounds, and the verifier accepts its certificates there. The iterations are
+/// counted here too, so a planner that counts nothing is bounded as well.
 ///
 /// # Errors
 /// [`NoPath`] says why there is none. A path that a black box calls free is refused: [`solve_unproven`] returns it.
@@ -136,7 +136,8 @@ fn work<R: Robot, M: Motion<Configuration = R::Configuration> + 'static>(
 /// The planner's path, if it stands the check of [`solve`].
 ///
 /// # Errors
-/// [`PathError`]: there is none, nothing of it is proven, it leads elsewhere, or the verifier refuses it.
+/// [`PathError`]: there is none, nothing of it is proven, it leads elsewhere, it leaves the scene's bounds, or the
+/// verifier refuses it.
 pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &(impl Planner<R, M> + ?Sized),
 ) -> Result<CertifiedPath<M>, PathError> {
@@ -147,6 +148,10 @@ pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 
         return Err(PathError::OtherEnds);
     }
     path.verify(problem.checker().scene())?;
+    let (robot, bounds) = (problem.checker().robot(), problem.checker().scene().bounds());
+    if let Some(leg) = path.legs().iter().position(|leg| !stays_within(robot, leg.motion(), &bounds)) {
+        return Err(PathError::Outside(leg));
+    }
     Ok(path.clone())
 }
 

@@ -216,6 +216,10 @@ impl Robot for AnyRobot {
         of_its_own!(self, robot, (a, b) => robot.edge_rates(a, b), Err(ConfigurationError::OtherRobot))
     }
 
+    fn position(&self, q: &AnyConfiguration) -> Option<Point2> {
+        of_its_own!(self, robot, (q) => robot.position(q), None)
+    }
+
     fn disc_line(&self, a: &AnyConfiguration, b: &AnyConfiguration) -> Option<(Segment, f64)> {
         of_its_own!(self, robot, (a, b) => robot.disc_line(a, b), None)
     }

@@ -211,6 +211,10 @@ impl Robot for Hitch {
         HitchCfg { body, trailer: self.hitch_len.map(|_| sample_angle(stream)) }
     }
 
+    fn position(&self, q: &HitchCfg) -> Option<Point2> {
+        Some(q.body.position())
+    }
+
     /// Either part turns about the rear axle's middle, where the hitch is.
     fn jacobian(&self, q: &HitchCfg, part: usize, point: Point2) -> Option<PointJacobian> {
         let (turn, still) = (turning(point, q.body.position()), Vector2::zeros());

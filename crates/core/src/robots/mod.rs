@@ -45,6 +45,7 @@ mod reach;
 mod robot;
 mod rusty;
 mod sizes;
+mod within;
 
 pub use any::AnyRobot;
 pub use check_rates::{MotionBound, RatesError, RatesUse, check_drive_rates, check_rates};
@@ -56,3 +57,4 @@ pub use motion::{Leaving, Motion, Rates};
 pub use reach::{JointPoints, Reach, ReachError};
 pub use robot::{CHANNEL_UNITS, ChartLine, ConfigurationError, Drivable, PartRates, PointJacobian, Robot, TICK};
 pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
+pub(crate) use within::{stays_within, to_sides};

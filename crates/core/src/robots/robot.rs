@@ -75,6 +75,13 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// numbers are drawn does not depend on their values.
     fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> Self::Configuration;
 
+    /// The point by which the robot is somewhere, metres: a rover's centre, the middle of a car's rear axle. Planners
+    /// keep it within the scene's bounds. `None` for a robot that moves on the spot, as an arm does, and for one that
+    /// does not say.
+    fn position(&self, _q: &Self::Configuration) -> Option<Point2> {
+        None
+    }
+
     /// The line that the footprint's centre follows along the chart's straight line from `a` to `b`, and the
     /// footprint's radius, metres; `None` where the robot is not a disc.
     fn disc_line(&self, _a: &Self::Configuration, _b: &Self::Configuration) -> Option<(Segment, f64)> {

@@ -140,6 +140,10 @@ impl Robot for Rusty {
         Pose2 { x: stream.uniform(min.x, max.x), y: stream.uniform(min.y, max.y), theta: sample_angle(stream) }
     }
 
+    fn position(&self, q: &Pose2) -> Option<Point2> {
+        Some(q.position())
+    }
+
     /// A disc moves, as a set, exactly as its centre does: the length of the edge, in a straight line.
     fn edge_rates(&self, a: &Pose2, b: &Pose2) -> Result<PartRates, ConfigurationError> {
         Ok(PartRates::from([Rates { speed: num::hypot(b.x - a.x, b.y - a.y), acceleration: 0.0 }]))
@@ -248,6 +252,10 @@ impl Robot for RustyDisc {
 
     fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> R2 {
         R2::new(stream.uniform(min.x, max.x), stream.uniform(min.y, max.y))
+    }
+
+    fn position(&self, q: &R2) -> Option<Point2> {
+        Some(q.0)
     }
 
     fn edge_rates(&self, a: &R2, b: &R2) -> Result<PartRates, ConfigurationError> {

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::{BeamError, OutlineError, ResidentSensorError, RouteError};
-use crate::configuration::SizesError;
+use super::{BeamError, OutlineError, OutsideError, ResidentSensorError, RouteError};
+use crate::configuration::{SizesError, WrittenCoordinateError};
 use crate::geometry::ShapeError;
 
 /// An item of a world file: `obstacles[1] "the post"`.
@@ -137,6 +137,12 @@ pub enum WorldProblem {
         /// How many it has.
         found: usize,
     },
+    /// A length of a robot's start in degrees.
+    #[error(transparent)]
+    Degrees(#[from] WrittenCoordinateError),
+    /// A robot that is not within the world's bounds.
+    #[error(transparent)]
+    Outside(#[from] OutsideError),
     /// Sizes out of range, or of another sort of robot.
     #[error(transparent)]
     Sizes(#[from] SizesError),

@@ -6,7 +6,7 @@
 //! World(
 //!     version: 1,
 //!     name: "Yard",
-//!     bounds: (min: (0, 0), max: (8, 6)),       // what is shown; not an obstacle
+//!     bounds: (min: (0, 0), max: (8, 6)),       // what is shown, and where robots are; not an obstacle
 //!     walls: [                                   // thin polylines
 //!         (name: "the fence", points: [(0, 0), (8, 0), (8, 6), (0, 6)], closed: true),
 //!     ],
@@ -62,6 +62,14 @@
 //! robots: [(name: "Rusty", kind: "rusty", start: [3, 1, 0], route: "round")],
 //! ```
 //!
+//! The bounds hold the robots' positions, their sides included: a rover's centre, the middle of a car's rear axle, an
+//! arm's base. A robot that starts outside them is refused, as is one that is larger than they are. Planners and their
+//! paths keep to them ([`Problem`](crate::collision::Problem)); a robot's footprint may reach over them, and drivers
+//! may leave them.
+//!
+//! An angle of a `start` may be written in degrees, in quotes: `start: [3, 5.5, "90deg"]`; [`turns`] finds those that
+//! were meant so and are not.
+//!
 //! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's
 //! coordinates: `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a
 //! trailer. Other kinds begin with `x-` and belong to programs that register them.
@@ -75,6 +83,7 @@ mod file;
 mod grid;
 mod limits;
 mod model;
+mod outside;
 mod route;
 mod sensor;
 #[cfg(test)]
@@ -89,6 +98,7 @@ pub use file::comments::comments;
 pub use file::description::{ShapeText, Xy};
 #[doc(hidden)]
 pub use file::name::check_name;
+pub use file::parse::turns;
 #[doc(hidden)]
 pub use file::resident::check_sensors;
 #[doc(hidden)]
@@ -99,6 +109,7 @@ pub use grid::ros_export::RosFiles;
 pub use grid::voronoi::VoronoiDiagram;
 pub use limits::{MAX_ITEMS, WORLD_VERSION};
 pub use model::{Door, Mark, Obstacle, ObstacleKind, Outline, Place, Resident, SourceShape, World};
+pub use outside::OutsideError;
 pub use route::{MAX_ROUTE_POINTS, ROUTE_RADII, ROUTE_SPEEDS, Route, RouteError, RoutePath};
 #[doc(hidden)]
 pub use sensor::check_mount;

@@ -6,8 +6,18 @@ use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{AnyRobot, Motion};
 
 /// The methods of `Robot` that are compared below.
-const COMPARED: [&str; 9] =
-    ["check", "footprint", "edge_rates", "sample", "disc_line", "jacobian", "is_within_limits", "edge_leaves", "edge"];
+const COMPARED: [&str; 10] = [
+    "check",
+    "footprint",
+    "edge_rates",
+    "sample",
+    "position",
+    "disc_line",
+    "jacobian",
+    "is_within_limits",
+    "edge_leaves",
+    "edge",
+];
 
 #[test]
 fn every_method_of_a_robot_is_compared() {
@@ -37,6 +47,8 @@ fn compare<R: Robot<Configuration: Into<AnyConfiguration>>>(scene: &Scene, robot
         assert_eq!(robot.check(&a), any.check(&any_a), "check");
         assert_eq!(bits(robot.footprint(&a)), bits(any.footprint(&any_a)), "footprint");
         assert_eq!(bits(robot.edge_rates(&a, &b)), bits(any.edge_rates(&any_a, &any_b)), "edge_rates");
+        assert_eq!(robot.position(&a), any.position(&any_a), "position");
+        assert_eq!(robot.position(&a).is_none(), any.annulus().is_some(), "an arm stays where it is");
         assert_eq!(bits(robot.disc_line(&a, &b)), bits(any.disc_line(&any_a, &any_b)), "disc_line");
         for part in 0..4 {
             let point = Point2::new(0.5 * (min.x + max.x), min.y);
@@ -59,6 +71,7 @@ fn compare<R: Robot<Configuration: Into<AnyConfiguration>>>(scene: &Scene, robot
     };
     assert!(any.check(&stranger).is_err() && !any.footprint(&stranger).is_valid());
     assert!(any.disc_line(&stranger, &stranger).is_none() && any.jacobian(&stranger, 0, min).is_none());
+    assert!(any.position(&stranger).is_none());
 }
 
 #[test]

@@ -40,3 +40,65 @@ fn bug1_goes_all_round_and_leaves_where_it_was_nearest() {
     let length = corners.windows(2).map(|ends| (ends[1].0 - ends[0].0).norm()).sum::<f64>();
     assert!(length > 1.7 + 0.95 * round && length < 2.2 + 1.5 * round, "{length} m, {round} m round");
 }
+
+/// A room with walls and boxes drawn from a seed, and two places in it at which a disc half as large again is free.
+fn clutter(seed: u64) -> Problem<RustyDisc> {
+    let mut s = Stream::new(Seed(seed), "clutter");
+    let mut walls = Vec::new();
+    for _ in 0..10 {
+        let (x, y) = (s.uniform(-1.9, 1.9), s.uniform(-1.9, 1.9));
+        walls.push([x, y, x + s.uniform(-1.2, 1.2), y + s.uniform(-1.2, 1.2)]);
+    }
+    let checker = room(&walls);
+    let mut place = || loop {
+        let q = R2::new(s.uniform(-1.9, 1.9), s.uniform(-1.9, 1.9));
+        if checker.distance(&q) > 0.07 && q.0.x.abs() < 1.85 && q.0.y.abs() < 1.85 {
+            return q;
+        }
+    };
+    let (start, goal) = (place(), place());
+    Problem::try_new(checker, start, goal, Seed(seed)).unwrap()
+}
+
+/// Whether a disc that keeps 6 cm from everything, a little more than the bugs, gets from start to goal, by a grid of
+/// 2 cm.
+fn has_way(problem: &Problem<RustyDisc>) -> bool {
+    let larger = Checker::new(problem.checker().shared_scene(), RustyDisc::try_new(0.16).unwrap());
+    let Ok(larger) = Problem::try_new(larger, problem.start(), problem.goal(), Seed(1)) else { return false };
+    let path = solve(&mut GridSearch::of(larger, 0.02, true), &Bounds::default());
+    // the sides of the room count as walls for the bugs, which keep 5 cm from them
+    path.is_ok_and(|path| path.corners().iter().all(|q| q.0.x.abs() < 1.94 && q.0.y.abs() < 1.94))
+}
+
+#[test]
+fn bugs_find_a_way_wherever_there_is_one_for_the_clearance_that_they_keep() {
+    let (mut ways, mut rounds) = (0, 0);
+    for seed in 0..count_from_env(PLANS, 60) {
+        let problem = clutter(seed);
+        if !has_way(&problem) {
+            continue;
+        }
+        ways += 1;
+        for mut planner in [
+            Box::new(Bug1::try_new(&problem).unwrap()) as Box<dyn Planner<RustyDisc>>,
+            Box::new(Bug2::try_new(&problem).unwrap()),
+        ] {
+            let path = solve(planner.as_mut(), &Bounds::default());
+            assert!(path.is_ok(), "{} at seed {seed}: {}", planner.name(), path.unwrap_err());
+        }
+        rounds += u32::from(!problem.checker().edge_free(&problem.start(), &problem.goal()));
+    }
+    assert!(ways > 40 && rounds > 15, "{ways} {rounds}");
+}
+
+/// At this seed Bug2's steps go past the place to leave from; before, it said that there was no path.
+const GOES_PAST: u64 = 651;
+
+#[test]
+fn bug2_that_went_past_a_place_to_leave_from_leaves_where_it_was_nearest() {
+    let problem = across_the_apartment(GOES_PAST);
+    let path = solved(&mut Bug2::try_new(&problem).unwrap(), GOES_PAST, |corners| {
+        disc_clearance(problem.checker().scene(), 0.11, corners)
+    });
+    assert!(path.legs().len() > 100);
+}

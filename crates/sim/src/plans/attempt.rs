@@ -100,6 +100,12 @@ pub trait PlanAttempt: Send {
     /// [`NoPath`] says why there is none.
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath>;
 
+    /// Goes on to a bound after there is a path, where the planner shortens it; another one stays as it is.
+    ///
+    /// # Errors
+    /// [`NoPath::Refused`]: the shorter path does not stand the check.
+    fn improve(&mut self, bounds: &Bounds) -> Result<(), NoPath>;
+
     /// Does one iteration. A path is checked before it counts, as by [`solve`].
     fn step(&mut self) -> Progress;
 
@@ -205,6 +211,22 @@ where
         } else {
             self.path = Some(solve(planner, bounds)?);
         }
+        Ok(())
+    }
+
+    fn improve(&mut self, bounds: &Bounds) -> Result<(), NoPath> {
+        loop {
+            let effort = self.planner.growth().effort();
+            if bounds.reached(&effort).is_some() {
+                break;
+            }
+            self.planner.step();
+            if self.planner.growth().effort() == effort {
+                // it does nothing more
+                break;
+            }
+        }
+        self.path = Some(accepted(self.planner.as_ref())?);
         Ok(())
     }
 

@@ -65,6 +65,7 @@ pub use sensors::view::{SensorView, sensors, sensors_of};
 pub use spawn::{is_under_way, recipe, start_recipe, start_run};
 pub use spawn_error::SpawnError;
 pub use state::snapshot;
+pub use tick::drive::StandingRobots;
 pub use tick::hold::{Advance, HOLD_CLEARANCE, MARGIN, MIN_CLEARANCE, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
 pub use tick::refusals::{Refusals, RefusedEvent, RefusedInput};

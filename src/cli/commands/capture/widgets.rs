@@ -62,7 +62,7 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
     let mut notes = Vec::new();
     for atlas in &mut atlases {
         notes.push(match &args.teleport {
-            Some(NumberList(to)) => teleport(atlas, to)?,
+            Some(to) => teleport(atlas, to)?,
             None => (Vec::new(), Vec::new()),
         });
     }
@@ -74,9 +74,10 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
 }
 
 /// Puts the first robot at `to`. For a refusal, returns the items to draw and the lines to show.
-fn teleport(atlas: &mut Atlas, to: &[f64]) -> Result<(Vec<Item>, Vec<String>), Failure> {
+fn teleport(atlas: &mut Atlas, to: &NumberList) -> Result<(Vec<Item>, Vec<String>), Failure> {
     let usage = |reason: String| Failure::usage(reason, "See `motion-lab capture --help`.");
     let resident = atlas.robots().first().ok_or_else(|| usage("no robot of the lab's lives there".into()))?;
+    let to = &to.values(resident.robot.about().lengths).map_err(usage)?;
     let wrong = || usage(format!("{}: {} is at {}", counted(to.len(), "number"), resident.name, resident.q));
     let wanted = resident.q.with_coordinates(to).filter(|q| resident.robot.check(q).is_ok()).ok_or_else(wrong)?;
     Ok(match atlas.teleport(0, wanted) {
@@ -100,7 +101,7 @@ fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
     let source = World::built_in_names().into_iter().find(|n| *n == world_name);
     let source = source.map_or(WorldSource::File(world_name), WorldSource::BuiltIn);
     let usage = |error: &dyn std::fmt::Display| Failure::usage(error, "See `motion-lab capture --help`.");
-    let (robot, q) = chosen.at(args.q.as_ref().map(|q| &q.0[..]), &world).map_err(|e| usage(&e))?;
+    let (robot, q) = chosen.written(args.q.as_ref(), &world).map_err(|e| usage(&e))?;
     let mut anatomy = Anatomy::new(world, source, robot, q).map_err(|e| usage(&e))?;
     if chosen.name == CHOSET && chosen.start.is_none() && args.step.is_none() {
         anatomy.set_step(0, -std::f64::consts::FRAC_PI_2);
@@ -109,7 +110,8 @@ fn frozen(args: &SceneArgs) -> Result<Anatomy, Failure> {
         if step.0.len() != anatomy.step().len() {
             return Err(usage(&format!("{}: the step has {}", counted(step.0.len(), "number"), anatomy.step().len())));
         }
-        step.0.iter().enumerate().for_each(|(i, s)| anatomy.set_step(i, *s));
+        let values = chosen.values(step).map_err(|e| usage(&e))?;
+        values.iter().enumerate().for_each(|(i, s)| anatomy.set_step(i, *s));
     }
     anatomy.show_annulus = args.annulus;
     Ok(anatomy)

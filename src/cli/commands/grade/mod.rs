@@ -13,6 +13,7 @@ use motion_lab::recording::{
 use motion_lab::run::{Log, Script};
 use motion_lab::simulation::SpawnError;
 
+use crate::cli::support::console::note;
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
 use crate::cli::support::log_source::MAX_LOG;
 use crate::cli::support::progress::CommandProgress;
@@ -21,12 +22,13 @@ use crate::cli::support::world_source::find_world_beside;
 use crate::cli::{Data, Failure, Outcome, say};
 use gradebook::Results;
 use graded::Graded;
+use submissions::{Found, ending};
 
 /// Grade scripts and logs by running them again at every seed of an assignment
 ///
 /// A log's frames are simulated again first: a log that claims others is forged. A submission passes when its robot is
-/// at the goal within every limit, at every seed. The exit code is 0 when all pass, 3 when a file is missing or can't
-/// be read, else 4.
+/// at the goal within every limit, at every seed. A robot that the script does not drive stands. The exit code is 0
+/// when all pass, 3 when a file is missing or can't be read, else 4.
 ///
 /// An assignment, in which the car has to park: it passes only when it stays there for the last 20 ticks.
 ///
@@ -55,8 +57,8 @@ Examples:
 pub struct GradeArgs {
     /// The assignment, RON.
     assignment: PathBuf,
-    /// The submissions: scripts, and logs named .mcap; a folder stands for those in it, and a pattern in quotes, as
-    /// "week3/*.ron", for the files that match.
+    /// The submissions: scripts, and logs named .mcap; a folder stands for those in it, and says what else it
+    /// holds; a pattern in quotes, as "week3/*.ron", for the files that match.
     #[arg(required = true, value_name = "SUBMISSION")]
     submissions: Vec<PathBuf>,
     /// How the grades are written. [default: table]
@@ -96,7 +98,10 @@ impl GradeArgs {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let form = self.form();
         let assignment = read_assignment(&self.assignment)?;
-        let files = submissions::find(&self.submissions, &self.assignment)?;
+        let Found { submissions: files, left_out } = submissions::find(&self.submissions, &self.assignment)?;
+        for (file, reason) in &left_out {
+            say(format!("{}: left out: {reason}", file.display()));
+        }
         if form == ReportForm::Gradescope && files.len() != 1 {
             return Err(Failure::usage(
                 format!("{} submissions: Gradescope's results.json is of one", files.len()),
@@ -174,6 +179,7 @@ fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
     };
     let file = AssignmentFile::parse(&path.display().to_string(), &read_text(path)?).map_err(refused)?;
     let world = find_world_beside(path, file.world_name())?;
+    file.turns(&world).into_iter().for_each(note);
     file.in_world(world).map_err(refused)
 }
 
@@ -182,12 +188,12 @@ fn read_submission(path: &Path) -> Result<Result<Submission, String>, Failure> {
     if path.is_dir() {
         return Ok(Err("no script, log or table is in this folder".into()));
     }
-    if path.extension().is_some_and(|extension| extension == "mcap") {
+    if ending(path) == "mcap" {
         let log = Log::read_mcap(&read_bytes(path, MAX_LOG)?);
         return Ok(log.map(|read| Submission::Log(Box::new(read.log))).map_err(|error| error.to_string()));
     }
     let bytes = read_bytes(path, MAX_TEXT)?;
-    if path.extension().is_some_and(|extension| extension == "csv") {
+    if ending(path) == "csv" {
         let (file, ron) = (path.display(), path.with_extension("ron"));
         let ron = ron.display();
         return Ok(Err(format!("a table is no script; make one of it: motion-lab script convert {file} -o {ron}")));

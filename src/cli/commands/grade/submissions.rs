@@ -12,33 +12,65 @@ const DEEPEST: usize = 8;
 /// Largest number of files in the folders and patterns of one command.
 const MAX_SUBMISSIONS: usize = 100_000;
 
+/// The endings of what can be handed in, in any case of letters.
+const ENDINGS: [&str; 3] = ["ron", "mcap", "csv"];
+
+/// What the command line names.
+#[derive(Default)]
+pub struct Found {
+    /// The submissions, each of which gets a row.
+    pub submissions: Vec<PathBuf>,
+    /// What is left out of the folders, each with the reason.
+    pub left_out: Vec<(PathBuf, &'static str)>,
+}
+
 /// The files that `names` name, in their order. A folder stands for the scripts, logs and tables in it and in its
-/// folders, by name, but for the file `assignment`. A pattern with `*` or `?` that is no file's name stands for the
-/// files that match it. A folder or a pattern without any stays itself. Any other name is taken as it is, whether there
-/// is such a file or not.
-pub fn find(names: &[PathBuf], assignment: &Path) -> Result<Vec<PathBuf>, Failure> {
+/// folders, by name, but for the file `assignment`; whatever else it holds is left out by name. A pattern with `*` or
+/// `?` that is no file's name stands for the files that match it. A folder or a pattern without any stays itself. Any
+/// other name is taken as it is, whether there is such a file or not.
+pub fn find(names: &[PathBuf], assignment: &Path) -> Result<Found, Failure> {
     let own = fs::canonicalize(assignment).ok();
     let is_assignment = |file: &PathBuf| own.is_some() && fs::canonicalize(file).ok() == own;
-    let mut found = Vec::new();
+    let mut found = Found::default();
     for name in names {
-        let before = found.len();
+        let before = found.submissions.len();
         if name.is_dir() {
             walk(name, 0, &mut found)?;
         } else if !name.exists() && is_pattern(name) {
             matching(name, &mut found)?;
         } else {
-            found.push(name.clone());
+            found.submissions.push(name.clone());
             continue;
         }
-        let mut new = found.split_off(before);
+        let mut new = found.submissions.split_off(before);
         new.retain(|file| !is_assignment(file));
         if new.is_empty() {
             // it gets a row that says so
             new.push(name.clone());
         }
-        found.append(&mut new);
+        found.submissions.append(&mut new);
     }
+    found.left_out.retain(|(file, _)| !is_assignment(file));
     Ok(found)
+}
+
+/// The ending of a file's name in small letters; empty without one.
+pub fn ending(path: &Path) -> String {
+    path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase()).unwrap_or_default()
+}
+
+/// Why a file of a folder is no submission; `None` for one that is.
+fn left_out(file: &Path) -> Option<&'static str> {
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    if name.starts_with('.') {
+        return Some("it is hidden");
+    }
+    match ending(file).as_str() {
+        known if ENDINGS.contains(&known) => None,
+        "partial" => Some("it is the beginning of a log, which was not finished"),
+        "html" | "htm" => Some("it is a page: open it in the lab, save its run as a file, and hand that in"),
+        _ => Some("its name ends in none of .ron, .mcap and .csv"),
+    }
 }
 
 /// The files and folders in a folder, by name.
@@ -50,25 +82,42 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(all)
 }
 
-/// Adds the submissions in a folder and its folders. Links to folders are not followed.
-fn walk(folder: &Path, depth: usize, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
+/// Adds the submissions in a folder and its folders, and names what it leaves out. Links to folders are not followed.
+fn walk(folder: &Path, depth: usize, found: &mut Found) -> Result<(), Failure> {
     for path in entries(folder)? {
-        if path.is_dir() {
-            if depth < DEEPEST && !path.is_symlink() {
-                walk(&path, depth + 1, found)?;
+        let reason = if !path.is_dir() {
+            left_out(&path)
+        } else if path.is_symlink() {
+            Some("it is a link to a folder")
+        } else if depth == DEEPEST {
+            Some("it lies too deep in folders")
+        } else {
+            walk(&path, depth + 1, found)?;
+            continue;
+        };
+        match reason {
+            None => push(path, found)?,
+            Some(reason) => {
+                found.check_room()?;
+                found.left_out.push((path, reason));
             }
-        } else if path.extension().is_some_and(|e| ["ron", "mcap", "csv"].iter().any(|known| e == *known)) {
-            push(path, found)?;
         }
     }
     Ok(())
 }
 
-fn push(path: PathBuf, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    if found.len() == MAX_SUBMISSIONS {
-        return Err(Failure::input(format!("more than {MAX_SUBMISSIONS} submissions"), "Grade them in several parts."));
+impl Found {
+    fn check_room(&self) -> Result<(), Failure> {
+        if self.submissions.len() + self.left_out.len() < MAX_SUBMISSIONS {
+            return Ok(());
+        }
+        Err(Failure::input(format!("more than {MAX_SUBMISSIONS} submissions"), "Grade them in several parts."))
     }
-    found.push(path);
+}
+
+fn push(path: PathBuf, found: &mut Found) -> Result<(), Failure> {
+    found.check_room()?;
+    found.submissions.push(path);
     Ok(())
 }
 
@@ -77,7 +126,7 @@ fn is_pattern(name: &Path) -> bool {
 }
 
 /// Adds the files that a pattern matches.
-fn matching(pattern: &Path, found: &mut Vec<PathBuf>) -> Result<(), Failure> {
+fn matching(pattern: &Path, found: &mut Found) -> Result<(), Failure> {
     let mut places = vec![PathBuf::new()];
     for part in pattern.components() {
         let part = part.as_os_str();

@@ -101,7 +101,8 @@ impl PlanAnswer {
             solved: true,
             effort: Some(attempt.effort().into()),
             seconds: Some(seconds),
-            legs: Some(attempt.legs().len()),
+            // a leg of a path that stays where it is leads nowhere
+            legs: Some(attempt.legs().iter().filter(|leg| leg.from != leg.to).count()),
             length: Some(JsonNumber(length)),
             clearance: task.checker.proves().then_some(JsonNumber(clearance)),
             exact: attempt.judged().map(|judged| ExactAnswer::of(&task.scene, judged)),

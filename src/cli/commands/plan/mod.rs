@@ -16,10 +16,10 @@ mod task;
 use std::time::Instant;
 
 use motion_lab::capture::{CaptureForm, PlanOutcome};
+use motion_lab::planning::Bounds;
 use motion_lab::plans::{PathFile, PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
-use crate::cli::support::choices::NumberList;
 use crate::cli::support::output::write_file;
 use crate::cli::support::paper::write_picture;
 use crate::cli::support::progress::CommandProgress;
@@ -37,8 +37,8 @@ impl PlanArgs {
         if !(0.0..=1.0).contains(&self.tube) {
             return Err(Failure::usage(format!("--tube {}: it must be from 0 to 1 m", self.tube), "Change --tube."));
         }
-        let from = self.from.as_ref().map(|NumberList(from)| from.as_slice());
-        let task = task::find(&self.robot, self.world.as_deref(), from, &self.to.0, self.tube)?;
+        let (world, from) = (self.world.as_deref(), self.from.as_ref());
+        let task = task::find(&self.robot, world, from, &self.to, self.tube)?;
         let task = Task { checker: self.checker, ..task };
         if !task.checker.proves() && (self.script.is_some() || self.record.is_some()) {
             let reason = format!("a script plays a path that is proven, and {} proves nothing", task.checker.id());
@@ -58,6 +58,11 @@ impl PlanArgs {
         // Ctrl-C ends the process while nothing is written
         let Some(solved) = solve(attempt.as_mut(), self.bound(name), |done| progress.at(done)) else {
             return Ok(Outcome::Stopped);
+        };
+        // a bound that somebody gives is how long a path may be shortened
+        let solved = match self.iterations {
+            Some(_) => solved.and_then(|()| attempt.improve(&Bounds::of_iterations(self.bound(name)))),
+            None => solved,
         };
         drop(progress);
         let seconds = begun.elapsed().as_secs_f64();

@@ -8,14 +8,20 @@ use motion_lab::robots::AnyRobot;
 
 use crate::cli::Failure;
 use crate::cli::commands::query::Chosen;
-use crate::cli::support::choices::one_of;
+use crate::cli::support::choices::{NumberList, one_of};
 
 /// The task of these arguments.
-pub fn find(name: &str, world: Option<&str>, from: Option<&[f64]>, to: &[f64], tube: f64) -> Result<Task, Failure> {
+pub fn find(
+    name: &str,
+    world: Option<&str>,
+    from: Option<&NumberList>,
+    to: &NumberList,
+    tube: f64,
+) -> Result<Task, Failure> {
     let (chosen, world) = Chosen::in_world(name, world)?;
     let see = "`motion-lab plan --help` says which numbers a robot has.";
-    let at = |option: &str, numbers: Option<&[f64]>| {
-        chosen.at(numbers, &world).map_err(|reason| Failure::usage(format!("{option}: {reason}"), see))
+    let at = |option: &str, numbers: Option<&NumberList>| {
+        chosen.written(numbers, &world).map_err(|reason| Failure::usage(format!("{option}: {reason}"), see))
     };
     let (robot, start) = at("--from", from)?;
     let (other, goal) = at("--to", Some(to))?;

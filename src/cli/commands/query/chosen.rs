@@ -10,7 +10,7 @@ use motion_lab::worlds::{Resident, World};
 
 use super::line::{QuerySubject, check_place, finite};
 use crate::cli::Failure;
-use crate::cli::support::choices::{CHOSET, KINDS};
+use crate::cli::support::choices::{CHOSET, KINDS, NumberList};
 use crate::cli::support::words::counted;
 use crate::cli::support::world_source::find_world;
 
@@ -82,9 +82,20 @@ impl Chosen {
         self.about.name
     }
 
+    /// The robot with a configuration as a person wrote it, and as [`at`](Self::at) without one.
+    pub fn written(&self, numbers: Option<&NumberList>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
+        let numbers = numbers.map(|numbers| self.values(numbers)).transpose()?;
+        self.at(numbers.as_deref(), world)
+    }
+
+    /// The coordinates that a person wrote for this robot.
+    pub fn values(&self, numbers: &NumberList) -> Result<Vec<f64>, String> {
+        numbers.values(self.about.lengths)
+    }
+
     /// The robot with a configuration: these numbers. Without numbers a resident is at its start, and a kind where the
     /// world's first resident of it starts; where there is none, an arm is as it usually is, and others are refused.
-    pub fn at(&self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
+    fn at(&self, numbers: Option<&[f64]>, world: &World) -> Result<(AnyRobot, AnyConfiguration), String> {
         let Chosen { about, start, .. } = self;
         let of_its_kind = || world.robots.iter().find(|r| r.kind == about.name).map(|r| r.start.clone());
         let usual = || about.usual.map(<[f64]>::to_vec);

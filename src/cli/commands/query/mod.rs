@@ -111,12 +111,22 @@ impl Query {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let desk = self.desk()?;
-        let start = || desk.robot.as_ref().and_then(|robot| robot.start.clone()).map(NumberList);
-        let q = if self.input.is_some() { None } else { self.q.or_else(start) };
+        let usage = |reason: String| Failure::usage(reason, "See `motion-lab query --help`.");
+        let values = |numbers: &NumberList| match &desk.robot {
+            Some(robot) => robot.values(numbers),
+            // where the sensor of a scan is
+            None => numbers.values(2),
+        };
+        let start = || desk.robot.as_ref().and_then(|robot| robot.start.clone());
+        let q = match &self.q {
+            Some(q) => Some(values(q).map_err(usage)?),
+            None if self.input.is_some() => None,
+            None => start(),
+        };
         match (q, &self.input) {
-            (Some(NumberList(q)), _) => {
-                let asked = QuerySubject { q, to: self.to.map(|NumberList(to)| to) };
-                let usage = |reason: String| Failure::usage(reason, "See `motion-lab query --help`.");
+            (Some(q), _) => {
+                let to = self.to.as_ref().map(values).transpose().map_err(usage)?;
+                let asked = QuerySubject { q, to };
                 if let Some(path) = &self.certificate {
                     let target = Target::of(path)?;
                     let certificate = desk.certify(&asked).map_err(usage)?;

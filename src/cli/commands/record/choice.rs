@@ -2,17 +2,19 @@
 
 use std::str::FromStr;
 
+use motion_lab::configuration::WrittenCoordinate;
 use motion_lab::names::did_you_mean;
 use motion_lab::worlds::{Resident, World};
 
 use crate::cli::Failure;
+use crate::cli::support::choices::{lengths_of, values};
 
 /// A robot's place: where it starts, and its kind if that is not the world's.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StartChoice {
     name: String,
     kind: Option<String>,
-    start: Vec<f64>,
+    start: Vec<WrittenCoordinate>,
 }
 
 impl FromStr for StartChoice {
@@ -25,7 +27,7 @@ impl FromStr for StartChoice {
             Some((kind, numbers)) => (Some(kind.to_owned()), numbers),
             None => (None, place),
         };
-        let number = |n: &str| n.trim().parse::<f64>().map_err(|_| format!("{n:?} is no number: {form}"));
+        let number = |n: &str| n.parse().map_err(|_| format!("{n:?} is no number: {form}"));
         let start = numbers.split(',').map(number).collect::<Result<_, _>>()?;
         Ok(StartChoice { name: name.to_owned(), kind, start })
     }
@@ -63,6 +65,7 @@ pub fn choose(worlds: &mut [World], names: &[String], places: &[StartChoice]) ->
         }
     }
     for world in worlds {
+        let mut placed = None;
         world.robots.retain(|r| kept.is_empty() || kept.contains(&r.name.as_str()));
         for robot in &mut world.robots {
             for (option, place) in &places {
@@ -71,7 +74,12 @@ pub fn choose(worlds: &mut [World], names: &[String], places: &[StartChoice]) ->
                 }
                 let put = if *option == "--place" { place.put(robot) } else { place.replace(robot) };
                 *robot = put.map_err(|problem| Failure::usage(format!("{option} {problem}"), HELP))?;
+                placed = Some(*option);
             }
+        }
+        // a world from elsewhere was checked when it was read
+        if let (Some(option), Err((i, reason))) = (placed, world.check_residents()) {
+            return Err(Failure::usage(format!("{option} {}: {reason}", world.robots[i].name), HELP));
         }
     }
     Ok(())
@@ -91,7 +99,8 @@ impl StartChoice {
     fn replace(&self, robot: &Resident) -> Result<Resident, String> {
         let StartChoice { name, kind, start } = self;
         let kind = kind.clone().unwrap_or_else(|| robot.kind.clone());
-        let placed = Resident::try_new(name.clone(), kind, start.clone(), None);
+        let start = values(start, lengths_of(&kind)).map_err(|reason| format!("{name}: {reason}"))?;
+        let placed = Resident::try_new(name.clone(), kind, start, None);
         let placed = placed.map_err(|problem| format!("{name}: {problem}"))?;
         Ok(Resident { sizes: robot.sizes.clone().filter(|_| placed.kind == robot.kind), ..placed })
     }

@@ -7,6 +7,7 @@ use motion_lab::batch::{Study, StudyError, StudyFile};
 
 use super::planned::named;
 use crate::cli::Failure;
+use crate::cli::support::console::note;
 use crate::cli::support::input::{read_text, shown};
 use crate::cli::support::words::parse_script;
 use crate::cli::support::world_source::find_world_beside;
@@ -38,5 +39,7 @@ pub fn study(path: &Path) -> Result<Study, Failure> {
             |reason| Failure::input(reason, "Correct it there. `motion-lab plan --help` says what each does.");
         named(name).map_err(|reason| named_at(name, unknown(reason)))?;
     }
-    file.with(&worlds, &scripts).map_err(refused)
+    let study = file.with(&worlds, &scripts).map_err(refused)?;
+    study.turns().into_iter().for_each(|turns| note(format!("{}: {turns}", shown(path))));
+    Ok(study)
 }

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::batch::{PartError, PartReader, RunRow, Study, TableError, TableWriter};
+use motion_lab::batch::{PartError, PartReader, RowValue, RunRow, Study, TableError, TableWriter};
 
 use crate::cli::support::input::{is_dash, open, unreadable};
 use crate::cli::support::output::ReportedFile;
@@ -17,8 +17,9 @@ use crate::cli::{Data, Failure, Outcome};
 
 /// Make one table of a sweep's parts, if they hold every row.
 ///
-/// Parts of any sharding go together; a row that several hold must be the same in all. Nothing is written where rows
-/// are missing, which are listed, or where parts are of different studies. Without an output it only checks.
+/// Parts of any sharding go together; a row that several hold must be the same in all, and each must say the seed, the
+/// length and the values that the study has in it. Nothing is written where rows are missing, which are listed, or
+/// where parts are of different studies. Without an output it only checks.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -232,7 +233,8 @@ impl Merge {
                     Some(range) if range.end == next => range.end += 1,
                     _ => missing.push(next..next + 1),
                 },
-                Some((row, ..)) => {
+                Some((row, _, path)) => {
+                    check_plan(&study, &row, &path)?;
                     failures += u64::from(row.is_failure(study.columns()));
                     outputs.iter_mut().try_for_each(|output| output.row(&row))?;
                 }
@@ -258,4 +260,17 @@ impl Merge {
         targets.into_iter().try_for_each(|target| target.finish(data))?;
         Ok(Outcome::Done)
     }
+}
+
+/// Checks that a row says the run that the study has in it: its seed, its length, the values of the axes.
+fn check_plan(study: &Study, row: &RunRow, path: &Path) -> Result<(), Failure> {
+    let Some((column, own)) = study.contradicted(row) else { return Ok(()) };
+    // where the seal is wrong, the part is damaged
+    OpenedPart::open(path)?.prove()?;
+    let (name, number, own) = (&column.name, row.row, own.to_text());
+    let found = row.cell(study.columns(), name).map_or_else(String::new, RowValue::to_text);
+    Err(Failure::input(
+        format!("{}: row {number} has {name} {found:?}, where its study has {own:?}", path.display()),
+        "It was changed after it was made. Take the part away and run its shard again.",
+    ))
 }

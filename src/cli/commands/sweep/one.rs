@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use motion_lab::batch::{RowGatherer, RunRow, Study};
-use motion_lab::run::LogKind;
+use motion_lab::run::{Frame, LogKind};
 
 use super::keep::Keep;
 use super::planned::{PlannedInputs, made};
@@ -65,6 +65,35 @@ pub fn run(study: &Study, row: u64, keep: Keep, logs: &Path) -> Result<Ran, Fail
         return Ok(Ran::Stopped);
     }
     Ok(Ran::Row(row))
+}
+
+/// Runs a row once more and writes its full log to a file, if there is a run at all. Returns the row as this run makes
+/// it; `None` where somebody asked to stop.
+pub fn again(study: &Study, row: u64, log: &Target) -> Result<Option<RunRow>, Failure> {
+    let (run, planned) = match study.setup(row).map(made) {
+        Err(reason) => return Ok(Some(study.failed(row, &reason))),
+        Ok(PlannedInputs::None(reason, planned)) => {
+            return Ok(Some(study.with_planned(study.failed(row, &reason), &planned)));
+        }
+        Ok(PlannedInputs::Stopped) => return Ok(None),
+        Ok(PlannedInputs::Run(run, planned)) => (run, planned),
+    };
+    let with_planned = |row| match &planned {
+        Some(planned) => study.with_planned(row, planned),
+        None => row,
+    };
+    let mut gatherer = RowGatherer::new(study, row, &run.config, &run.script);
+    let see = |frame: &Frame| gatherer.see(frame);
+    match write_run_watched(&run, LogKind::Frames, None, StopRule::default(), log, see) {
+        Ok(Ended::Whole { last, digest, refusals }) => Ok(Some(with_planned(gatherer.row(&last, digest, &refusals)))),
+        Ok(Ended::Stopped(_) | Ended::Differs(_)) => {
+            remove_partial(log.path());
+            Ok(None)
+        }
+        // a script or a start that the run does not take
+        Err(Failure::Input { reason, .. }) => Ok(Some(with_planned(study.failed(row, &reason)))),
+        Err(failure) => Err(failure),
+    }
 }
 
 /// Writes the full log of a row that was run before, if it is one of those to keep and not there yet. `false` where

@@ -4,19 +4,16 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::batch::{PartError, PartReader, RowValue, RunRow, Study, TableError, TableFile};
-use motion_lab::run::LogKind;
+use motion_lab::batch::{Column, PartError, PartReader, RowValue, RunRow, Study, TableError, TableFile};
 
 use super::merge;
-use super::one::{log_name, remove_partial};
-use super::planned::{PlannedInputs, made};
-use crate::cli::commands::record::{Ended, StopRule, write_run};
+use super::one::{again, log_name};
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
 
-/// Run a row of a sweep once more, write its full log, and compare its digest with the row's.
+/// Run a row of a sweep once more, write its full log, and compare every cell of the row with what the run gives.
 ///
 /// The table (.parquet) or a part holds the study and all it names, so nothing else is needed.
 #[derive(Debug, Args)]
@@ -74,49 +71,48 @@ fn find(file: &Path, number: u64) -> Result<(Study, RunRow), Failure> {
     }
 }
 
+/// The columns in which two rows differ, each with what is there and what the run gives.
+fn differences(columns: &[Column], found: &RunRow, again: &RunRow) -> Vec<String> {
+    let text = |row: &RunRow, i: usize| row.cells.get(i).map_or_else(String::new, RowValue::to_text);
+    let named = |(i, column): (usize, &Column)| {
+        let [found, again] = [text(found, i), text(again, i)];
+        let shown = |text: String| if text.is_empty() { "nothing".to_owned() } else { text };
+        (found != again).then(|| format!("{} {}, expected {}", column.name, shown(again), shown(found)))
+    };
+    columns.iter().enumerate().filter_map(named).collect()
+}
+
 impl Reproduce {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         interrupt::listen();
         let (study, row) = find(&self.file, self.row)?;
         let columns = study.columns();
-        let Some(RowValue::Text(expected)) = row.cell(columns, "digest").cloned() else {
-            let Some(RowValue::Text(reason)) = row.cell(columns, "failure") else {
-                return Err(Failure::input(
-                    format!("{}: row {} has no digest", self.file.display(), self.row),
-                    "Name a table that `sweep merge` wrote.",
-                ));
-            };
-            data.line(format!("row {} could not be run, and there is no log: {reason}", self.row))?;
-            return Ok(Outcome::Done);
-        };
-        let cannot = |reason: String| {
-            Failure::input(
-                format!("{}: row {} can't be run: {reason}", self.file.display(), self.row),
-                "Use the version of motion-lab that made it.",
-            )
-        };
-        let stopped = || {
-            say("stopped; nothing is kept, start again");
-            Outcome::Stopped
-        };
-        let run = match made(study.setup(self.row).map_err(cannot)?) {
-            PlannedInputs::Run(run, _) => run,
-            PlannedInputs::None(reason, _) => return Err(cannot(reason)),
-            PlannedInputs::Stopped => return Ok(stopped()),
-        };
         let output = self.output.unwrap_or_else(|| log_name(Path::new(""), self.row));
         let target = Target::log(&output)?;
-        let Ended::Whole { digest, .. } = write_run(&run, LogKind::Frames, None, StopRule::default(), &target)? else {
-            remove_partial(&output);
-            return Ok(stopped());
+        let Some(again) = again(&study, self.row, &target)? else {
+            say("stopped; nothing is kept, start again");
+            return Ok(Outcome::Stopped);
         };
-        target.wrote();
-        if digest.to_string() == expected {
-            data.line(format!("row {} is reproduced: digest {digest}", self.row))?;
-            return Ok(Outcome::Done);
+        let digest = match again.cell(columns, "digest") {
+            Some(RowValue::Text(digest)) => Some(digest),
+            _ => None,
+        };
+        if digest.is_some() {
+            target.wrote();
         }
-        data.line(format!("row {} differs: digest {digest}, expected {expected}", self.row))?;
-        Ok(Outcome::Differs)
+        let differences = differences(columns, &row, &again);
+        if !differences.is_empty() {
+            data.line(format!("row {} differs: {}", self.row, differences.join("; ")))?;
+            return Ok(Outcome::Differs);
+        }
+        match (digest, again.cell(columns, "failure")) {
+            (Some(digest), _) => data.line(format!("row {} is reproduced: digest {digest}", self.row))?,
+            (None, Some(RowValue::Text(reason))) => {
+                data.line(format!("row {} could not be run, and there is no log: {reason}", self.row))?;
+            }
+            (None, _) => data.line(format!("row {} could not be run, and there is no log", self.row))?,
+        }
+        Ok(Outcome::Done)
     }
 }

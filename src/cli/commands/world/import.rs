@@ -1,10 +1,11 @@
 //! `world import`: a map or drawing of another program as a world file.
 
-use crate::cli::support::choices::{NumberList, one_of};
+use crate::cli::support::choices::{NumberList, lengths_of, one_of, values};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use motion_lab::collision::{Collision, Scene};
+use motion_lab::configuration::WrittenCoordinate;
 use motion_lab::random::Seed;
 use motion_lab::run::Recipe;
 use motion_lab::tour::TourConfig;
@@ -54,7 +55,7 @@ pub struct Import {
     robot: Option<String>,
     /// Where that robot starts: x,y,theta; for an arm its joint angles.
     #[arg(long, value_name = "NUMBERS", requires = "robot", value_delimiter = ',', allow_hyphen_values = true)]
-    start: Vec<f64>,
+    start: Vec<WrittenCoordinate>,
     /// Trace the borders of occupied cells as closed walls: fewer obstacles, but a robot put inside them touches
     /// nothing.
     #[arg(long)]
@@ -113,10 +114,15 @@ impl Import {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let kind = self.format.map_or_else(|| kind_of(&self.file), Ok)?;
         let mut imported = self.read(kind)?;
+        if let Err((i, reason)) = imported.world.check_residents() {
+            let reason = format!("{}: {}: {reason}", self.file.display(), imported.world.robots[i].name);
+            return Err(Failure::input(reason, "Give it a start within the world, or leave it out."));
+        }
         if let Some(kind) = &self.robot {
-            imported.put_robot(kind, &self.start).map_err(|problem| {
-                Failure::usage(format!("--robot {kind}: {problem}"), "See `motion-lab world import --help`.")
-            })?;
+            let usage = |reason: String| Failure::usage(reason, "See `motion-lab world import --help`.");
+            let start = values(&self.start, lengths_of(kind)).map_err(|reason| usage(format!("--start: {reason}")))?;
+            imported.put_robot(kind, &start).map_err(|problem| usage(format!("--robot {kind}: {problem}")))?;
+            imported.world.check_residents().map_err(|(_, reason)| usage(format!("--robot {kind}: {reason}")))?;
         }
         let Imported { world, notes } = imported;
         notes.iter().for_each(say);
@@ -167,9 +173,10 @@ impl Import {
 
     fn ros(&self, file: &str, text: &str, name: &str) -> Result<Imported, Failure> {
         let mut map = RosMap::parse(file, text).map_err(refused)?;
-        if let Some(NumberList(shift)) = &self.shift {
-            let &[x, y] = &shift[..] else {
-                return Err(Failure::usage("--shift takes two numbers: x,y", "For example --shift -431000,-4582000."));
+        if let Some(shift) = &self.shift {
+            let usage = |reason: String| Failure::usage(reason, "For example --shift -431000,-4582000.");
+            let [x, y] = shift.values(2).map_err(usage)?[..] else {
+                return Err(usage("--shift takes two numbers: x,y".into()));
             };
             map.origin.x += x;
             map.origin.y += y;

@@ -77,7 +77,7 @@ fn text(item: &str, reason: impl ToString) -> SavedRunError {
 pub fn world_texts(config: &TourConfig) -> Result<Vec<String>, SavedRunError> {
     let text = |world: &World| {
         let text = world.to_ron();
-        let is_same = World::parse(&world.name, &text).is_ok_and(|read| read == *world);
+        let is_same = World::parse_recorded(&world.name, &text).is_ok_and(|read| read == *world);
         if is_same { Ok(text) } else { Err(SavedRunError::World(world.name.clone())) }
     };
     config.worlds.iter().map(text).collect()
@@ -123,7 +123,7 @@ impl SavedRun {
         let run: RunText = ron::from_str(body).map_err(|error| text("the run", error))?;
         let world = |(i, it): (usize, &String)| {
             let name = format!("world {i}");
-            World::parse(&name, it).map_err(|error| text(&name, error))
+            World::parse_recorded(&name, it).map_err(|error| text(&name, error))
         };
         let worlds: Vec<World> = run.worlds.iter().enumerate().map(world).collect::<Result<_, _>>()?;
         let sensor = run.sensor.map(|s| RangeSensor { n_rays: s.n_rays, max_range: s.max_range });

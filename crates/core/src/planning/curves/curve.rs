@@ -156,7 +156,8 @@ pub(super) fn arc_cosine(cosine: f64) -> Option<f64> {
 
 /// The length of pieces, in their own unit.
 pub(super) fn length(pieces: &[CurvePiece]) -> f64 {
-    pieces.iter().map(|piece| piece.length.abs()).sum()
+    // the sum of no floats is -0.0
+    pieces.iter().fold(0.0, |sum, piece| sum + piece.length.abs())
 }
 
 /// The goal as the start sees it, in units of the radius. `None` when a number is not finite or the radius not above 0.

@@ -255,3 +255,11 @@ fn what_is_no_number_or_no_radius_has_no_curve() {
     assert_eq!(dubins(&b, &b, 1.0).unwrap().pieces(), []);
     assert_eq!(reeds_shepp(&b, &b, 1.0).unwrap().length(), 0.0);
 }
+
+#[test]
+fn a_curve_from_a_pose_to_itself_has_the_length_zero_without_a_sign() {
+    let here = Pose2::new(1.0, 2.0, 0.5);
+    for curve in [dubins(&here, &here, 2.0), reeds_shepp(&here, &here, 2.0)].map(Option::unwrap) {
+        assert_eq!((curve.length().to_bits(), curve.pieces().len()), (0.0_f64.to_bits(), 0));
+    }
+}

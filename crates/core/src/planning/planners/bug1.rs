@@ -1,13 +1,10 @@
 //! `Bug1`, which goes all the way round an obstacle before it leaves it.
 
-use super::walker::{Headed, Walker, apart};
+use super::walker::{Headed, SETTLE, Walker};
 use crate::collision::Problem;
 use crate::configuration::Chart;
 use crate::planning::{NoPath, Planner, Search};
 use crate::robots::Robot;
-
-/// The number of steps along a boundary in which the walker comes to the clearance that it keeps.
-const SETTLE: u64 = 16;
 
 /// What the next iteration does.
 #[derive(Clone, Debug)]
@@ -15,7 +12,7 @@ enum Bug1Phase {
     /// Goes straight to the goal.
     Head,
     /// Comes to the clearance that it keeps from the boundary.
-    Settle { steps: u64 },
+    Settle { steps: usize },
     /// Follows the boundary, which is at the right hand, from this node on.
     Round { from: usize },
     /// Goes back along these nodes, the next one last.
@@ -78,10 +75,8 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
             }
             Bug1Phase::Round { from } => {
                 let node = self.walker.node();
-                let is_back = node > from + SETTLE as usize
-                    && apart(self.walker.place(node), self.walker.place(from)) < self.walker.stride();
-                if is_back {
-                    self.phase = Bug1Phase::Return { nodes: self.way_back(from, node) };
+                if self.walker.is_back(from) {
+                    self.phase = Bug1Phase::Return { nodes: self.walker.way_back(from, node) };
                     return None;
                 }
                 self.phase = Bug1Phase::Round { from };
@@ -107,21 +102,6 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
             return self.walker.arrived();
         }
         if self.walker.follow() { None } else { Some(self.walker.stuck()) }
-    }
-
-    /// The nodes of the shorter way from the end of a round to the place nearest to the goal, the first one last.
-    fn way_back(&self, from: usize, end: usize) -> Vec<usize> {
-        let far = |node: usize| apart(self.walker.place(node), self.walker.goal());
-        let leave = (from..=end).fold(from, |best, node| if far(node) < far(best) { node } else { best });
-        let length = |a: usize, b: usize| -> f64 {
-            (a..b).map(|node| apart(self.walker.place(node), self.walker.place(node + 1))).sum()
-        };
-        if length(from, leave) <= length(leave, end) {
-            // once more the way that it went round
-            (from..=leave).rev().collect()
-        } else {
-            (leave..end).collect()
-        }
     }
 }
 

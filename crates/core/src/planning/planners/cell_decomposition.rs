@@ -53,11 +53,7 @@ impl CellDecomposition {
             return (!is_solved).then(|| self.undecided());
         }
         if raster.way(start, goal, |state| state != CellState::Blocked).is_none() {
-            let ends = [self.search.problem.start(), self.search.problem.goal()];
-            // a way to an end beyond the cells may lead around all of them
-            if !ends.iter().all(|q| raster.holds(map.slice().point(q))) {
-                return Some(self.undecided());
-            }
+            // both ends lie within the cells, and so does every path between them
             return Some(NoPath::Unreachable { cells: map.progress().judged });
         }
         is_done.then(|| self.undecided())
@@ -85,13 +81,7 @@ impl CellStates {
         CellStates { states: map.raster(map.finest()), side, min, steps, wraps: map.slice().wraps() }
     }
 
-    /// Whether a point lies in the slice; on a torus every point does.
-    fn holds(&self, p: [f64; 2]) -> bool {
-        let within = |i: usize| (0.0..=self.side as f64).contains(&((p[i] - self.min[i]) / self.steps[i]));
-        self.wraps || (within(0) && within(1))
-    }
-
-    /// The number of the cell in which a point lies; beyond the slice, of the nearest.
+    /// The number of the cell in which a point lies; on its last side, of the last.
     fn cell(&self, p: [f64; 2]) -> usize {
         let last = (self.side - 1) as f64;
         let [column, row] = [0, 1].map(|i| ((p[i] - self.min[i]) / self.steps[i]).floor().clamp(0.0, last) as usize);

@@ -8,7 +8,8 @@ use crate::robots::Robot;
 /// A rapidly-exploring random tree (LaValle, 1998): the node nearest to a sample takes a step toward it. Some samples
 /// are the goal.
 ///
-/// An iteration draws a sample and asks about at most two edges, the second from the new node to the goal.
+/// An iteration draws a sample and asks about at most two edges, the second from the new node to the goal. A start that
+/// is the goal, or lies in its region, is the whole path.
 #[derive(Clone, Debug)]
 pub struct Rrt<R: Robot> {
     search: Search<R>,
@@ -71,6 +72,9 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Rrt<R> {
     }
 
     fn advance(&mut self) {
+        if self.search.problem.is_goal(&self.search.at(0)) && self.search.take_branch(0) {
+            return;
+        }
         if let Some(end) = self.extend().and_then(|node| self.reach(node)) {
             self.search.take_branch(end);
         }

@@ -4,10 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
-use crate::geometry::{Point2, Vector2};
+use crate::geometry::{Aabb, Point2, Vector2};
 use crate::num::{greater, hypot, lesser, sin_cos};
 use crate::planning::{NoPath, Search};
-use crate::robots::Robot;
+use crate::robots::{Robot, to_sides};
 
 /// The first direction that a step along a boundary tries, from the heading: back and to the right, radians.
 const RIGHT: f64 = -0.75 * PI;
@@ -24,6 +24,9 @@ const HALVINGS: u32 = 6;
 /// The clearance that the usual walker keeps from a boundary, as a share of its radius.
 const KEEP: f64 = 0.5;
 
+/// The number of steps along a boundary in which the walker comes to the clearance that it keeps.
+pub(super) const SETTLE: usize = 16;
+
 /// A disc on its way. Every step is an edge that was proven free, and a node of the growth.
 #[derive(Clone, Debug)]
 pub(super) struct Walker<R: Robot> {
@@ -37,6 +40,18 @@ pub(super) struct Walker<R: Robot> {
 /// The distance of two points, metres.
 pub(super) fn apart(a: Point2, b: Point2) -> f64 {
     hypot(a.x - b.x, a.y - b.y)
+}
+
+/// The distance from a place within a box to the nearest of its sides, and the unit vector to that; of equally near
+/// ones to the left, the right, the lower one.
+fn nearest_side(bounds: &Aabb, p: Point2) -> (f64, Vector2) {
+    let sides = [
+        (p.x - bounds.min.x, -Vector2::x()),
+        (bounds.max.x - p.x, Vector2::x()),
+        (p.y - bounds.min.y, -Vector2::y()),
+        (bounds.max.y - p.y, Vector2::y()),
+    ];
+    sides.into_iter().fold((f64::INFINITY, Vector2::x()), |least, side| if side.0 < least.0 { side } else { least })
 }
 
 /// The result of a step toward the goal.
@@ -101,9 +116,12 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         self.moved(by).is_some_and(|to| self.go(to))
     }
 
-    /// The clearance that it would have after moving by a vector, metres.
+    /// The clearance that it would have after moving by a vector, metres. The sides of the scene's bounds are walls for
+    /// the disc's centre.
     fn clearance(&self, by: Vector2) -> f64 {
-        self.moved(by).map_or(0.0, |q| self.search.problem.checker().distance(&q))
+        let checker = self.search.problem.checker();
+        let to_sides = to_sides(&checker.scene().bounds(), self.here() + by);
+        self.moved(by).map_or(0.0, |q| lesser(checker.distance(&q), greater(to_sides, 0.0)))
     }
 
     /// Takes a step toward the goal, as long as the clearance allows. It is blocked where that would come nearer to a
@@ -138,18 +156,24 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         Headed::Blocked
     }
 
-    /// Its clearance where it is, metres, and the unit vector to the nearest boundary; `None` in an empty scene.
-    fn nearest(&self) -> Option<(f64, Vector2)> {
-        let witness = self.search.problem.checker().witness(&self.search.at(self.node())).ok().flatten()?;
-        let toward = witness.on_obstacle - self.here();
-        Some((witness.dist, toward / greater(hypot(toward.x, toward.y), f64::MIN_POSITIVE)))
+    /// Its clearance where it is, metres, and the unit vector to the nearest boundary, of an obstacle or a side of the
+    /// bounds.
+    fn nearest(&self) -> (f64, Vector2) {
+        let checker = self.search.problem.checker();
+        let side = nearest_side(&checker.scene().bounds(), self.here());
+        match checker.witness(&self.search.at(self.node())).ok().flatten() {
+            Some(witness) if witness.dist <= side.0 => {
+                let toward = witness.on_obstacle - self.here();
+                (witness.dist, toward / greater(hypot(toward.x, toward.y), f64::MIN_POSITIVE))
+            }
+            _ => side,
+        }
     }
 
     /// Turns so that the nearest boundary is at its right hand.
     fn face(&mut self) {
-        if let Some((_, toward)) = self.nearest() {
-            self.heading = Vector2::new(-toward.y, toward.x);
-        }
+        let (_, toward) = self.nearest();
+        self.heading = Vector2::new(-toward.y, toward.x);
     }
 
     /// Goes to the goal where that is near and in sight: it may lie nearer to a boundary than the walker keeps.
@@ -184,10 +208,31 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
 
     /// Takes a step to the nearest boundary, up to the clearance that it keeps, and turns along it.
     fn approach(&mut self) -> bool {
-        let Some((clearance, toward)) = self.nearest() else { return false };
+        let (clearance, toward) = self.nearest();
         let is_there = self.step(toward * lesser(clearance - self.keep, self.stride()));
         self.face();
         is_there
+    }
+
+    /// The nodes of the shorter way from the end of a round, which began at node `from`, to the place nearest to the
+    /// goal, the first one last.
+    pub(super) fn way_back(&self, from: usize, end: usize) -> Vec<usize> {
+        let far = |node: usize| apart(self.place(node), self.goal());
+        let leave = (from..=end).fold(from, |best, node| if far(node) < far(best) { node } else { best });
+        let length =
+            |a: usize, b: usize| -> f64 { (a..b).map(|node| apart(self.place(node), self.place(node + 1))).sum() };
+        if length(from, leave) <= length(leave, end) {
+            // once more the way that it went round
+            (from..=leave).rev().collect()
+        } else {
+            (leave..end).collect()
+        }
+    }
+
+    /// Whether a round that began at node `from` is closed where it is.
+    pub(super) fn is_back(&self, from: usize) -> bool {
+        let node = self.node();
+        node > from + SETTLE && apart(self.place(node), self.place(from)) < self.stride()
     }
 
     /// Its heading turned by an angle, radians to the left.

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::sizes::{ArmText, CarText, DiscText, given};
+use crate::configuration::WrittenCoordinate;
 use crate::geometry::{Point2, Pose2};
 use crate::worlds::BeamModel;
 
@@ -117,7 +118,7 @@ pub(crate) struct PlaceText {
 pub(crate) struct RobotText {
     pub name: String,
     pub kind: String,
-    pub start: Vec<f64>,
+    pub start: Vec<WrittenCoordinate>,
     #[serde(default, deserialize_with = "given")]
     pub disc: Option<DiscText>,
     #[serde(default, deserialize_with = "given")]

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use super::description::Named;
+use super::description::{Named, RobotText};
 use super::items::{Budget, make_bounds, make_door, make_mark, make_place, make_solid, make_wall};
 use super::name::check_name;
 use super::resident::make_resident;
 use super::route::{Radii, make_route, routed};
 use super::source::{FilePart, FileText};
+use crate::configuration::{RobotKind, WrittenCoordinate};
 use crate::worlds::{MAX_ITEMS, World, WorldError, WorldItem, WorldProblem};
 
 impl World {
@@ -21,7 +22,8 @@ impl World {
     /// format's form; another version; an unknown field; a name that is empty or taken; numbers that are not finite;
     /// coordinates beyond [`MAX_COORDINATE`](crate::geometry::MAX_COORDINATE); features below
     /// [`MIN_FEATURE`](crate::geometry::MIN_FEATURE); polygons that cross themselves; more than [`MAX_ITEMS`] shapes,
-    /// or items in a list; unknown kinds of robots; [routes](crate::worlds::RouteError) that are none.
+    /// or items in a list; unknown kinds of robots; robots that
+    /// are not [within the bounds](crate::worlds::OutsideError); [routes](crate::worlds::RouteError) that are none.
     ///
     /// ```
     /// use motion_lab_core::worlds::World;
@@ -31,6 +33,20 @@ impl World {
     /// assert!(error.to_string().starts_with("yard.ron:2:13: obstacles[0] \"the tree\": radius 0 m"));
     /// ```
     pub fn parse(source_name: &str, text: &str) -> Result<World, WorldError> {
+        let world = World::parse_recorded(source_name, text)?;
+        world.check_residents().map_err(|(index, problem)| {
+            let item = WorldItem { list: "robots", index, name: world.robots[index].name.clone() };
+            FileText { file: source_name, text }.error(FilePart::Item(&item), problem)
+        })?;
+        Ok(world)
+    }
+
+    /// Reads a world as [`parse`](Self::parse), but takes robots that are not within its bounds: logs that were
+    /// recorded with such a world still replay.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse), but for those robots.
+    pub fn parse_recorded(source_name: &str, text: &str) -> Result<World, WorldError> {
         let source = FileText { file: source_name, text };
         let file = source.read()?;
         check_name(&file.name).map_err(|problem| source.error(FilePart::Name, problem))?;
@@ -64,6 +80,18 @@ impl World {
             robots,
         })
     }
+}
+
+/// What the writer of a world file may have meant by angles of more than a turn, a sentence for each robot that has
+/// such a start. None of a text that is no world file.
+pub fn turns(text: &str) -> Vec<String> {
+    let Ok(file) = (FileText { file: "", text }).read() else { return Vec::new() };
+    let of = |robot: &RobotText| {
+        let lengths = RobotKind::of(&robot.kind).map(|known| known.lengths)?;
+        let note = WrittenCoordinate::all_turns(&robot.start, lengths).next()?;
+        Some(format!("the start of {}: {note}", robot.name))
+    };
+    file.robots.iter().filter_map(of).collect()
 }
 
 impl FileText<'_> {

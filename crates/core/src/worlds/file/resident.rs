@@ -6,7 +6,7 @@ use super::description::{RobotText, SensorText};
 use super::items::{finite, make_point};
 use super::name::{MAX_NAME, check_name};
 use super::sizes::{SizesText, make_sizes};
-use crate::configuration::{RobotKind, Sizes};
+use crate::configuration::{RobotKind, Sizes, WrittenCoordinate};
 use crate::geometry::Pose2;
 use crate::num;
 use crate::worlds::{
@@ -57,7 +57,9 @@ pub(crate) fn make_resident(text: &RobotText) -> Result<Resident, WorldProblem> 
     let RobotText { name, kind, start, disc, arm, car, sensor, sensors, route: _ } = text;
     let sizes = SizesText { disc: disc.as_ref(), arm: arm.as_ref(), car: car.as_ref() };
     let sensors: Vec<ResidentSensor> = sensors.iter().map(make_sensor).collect();
-    let resident = Resident::try_new(name.clone(), kind.clone(), start.clone(), *sensor)?;
+    let lengths = RobotKind::of(kind).map_or(0, |known| known.lengths);
+    let start = WrittenCoordinate::values(start, lengths)?;
+    let resident = Resident::try_new(name.clone(), kind.clone(), start, *sensor)?;
     Resident { sizes: make_sizes(kind, &sizes)?, ..resident }.try_with_sensors(&sensors)
 }
 

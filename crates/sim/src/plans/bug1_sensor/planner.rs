@@ -11,7 +11,8 @@ use motion_lab_core::sensors::BeamModel;
 /// Bug1 by its range sensor, as a planner: its growth is the way that it has walked, and an iteration a step.
 ///
 /// With a noisy sensor it may misjudge where to leave a boundary, and find no path where there is one:
-/// [`NoPath::GaveUp`]. With the exact one [`NoPath::Enclosed`] says that the goal lies behind an obstacle.
+/// [`NoPath::GaveUp`]. So it does where its way leads out of the scene's bounds, which no sensor sees. With the exact
+/// sensor [`NoPath::Enclosed`] says that the goal lies behind an obstacle.
 #[derive(Clone, Debug)]
 pub struct Bug1Sensor {
     search: Search<RustyDisc>,
@@ -33,6 +34,9 @@ impl Bug1Sensor {
         if let Some(stopped) = self.walk.stopped() {
             // what stopped it is there to be drawn
             self.search.growth.ask(self.search.problem.checker(), stopped.clone());
+        }
+        if !self.search.problem.checker().scene().bounds().contains(self.walk.at()) {
+            return Some(NoPath::GaveUp("its way leads out of the world, whose bounds its sensor does not see"));
         }
         if !self.go(R2(self.walk.at())) {
             return Some(NoPath::GaveUp("a step that its sensor allowed is not proven free"));

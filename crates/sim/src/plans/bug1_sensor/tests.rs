@@ -4,7 +4,7 @@ use super::rover::{KEEP, NOISE};
 use super::{Bug1Sensor, Bug1Walk, WalkEnd};
 use motion_lab_core::collision::{Checker, Problem, Scene};
 use motion_lab_core::configuration::R2;
-use motion_lab_core::geometry::{Aabb, Point2, Segment, Shape};
+use motion_lab_core::geometry::{Aabb, Point2, Shape};
 use motion_lab_core::planning::{Bounds, NoPath, Planner, Progress, RoundEnd, solve};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::robots::RustyDisc;
@@ -70,8 +70,12 @@ fn the_exact_sensor_leaves_where_it_should_and_the_noisy_one_does_not_at_some_se
 fn who_gives_up_says_why() {
     let corner = |x: f64, y: f64| Point2::new(1.5 + 0.6 * x, 0.6 * y);
     let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
-    let walls: Vec<Segment> = (0..4).map(|i| Segment::new(corners[i], corners[(i + 1) % 4])).collect();
-    let checker = Checker::new(Scene::of_walls(&walls), RustyDisc::default());
+    let bounds = Aabb { min: Point2::new(-3.0, -3.0), max: Point2::new(3.0, 3.0) };
+    let wall = |scene: Scene, i: usize| {
+        let shape = Shape::Segment { a: corners[i], b: corners[(i + 1) % 4] };
+        scene.with_obstacle(&format!("wall {i}"), shape)
+    };
+    let checker = Checker::new((0..4).fold(Scene::empty(bounds), wall), RustyDisc::default());
     let problem = Problem::try_new(checker, R2::new(-2.0, 0.05), R2::new(1.5, 0.0), Seed(1)).unwrap();
     let Err(NoPath::Enclosed { kept }) = solve(&mut Bug1Sensor::new(problem.clone(), None), &Bounds::default()) else {
         panic!("the goal is walled in")
@@ -85,4 +89,17 @@ fn who_gives_up_says_why() {
     // at this seed the sensor loses the leave point
     let reason = solve(&mut across_the_apartment(2023, true), &Bounds::default()).unwrap_err();
     assert!(reason.to_string().starts_with("the robot gave up: it never came back to where"), "{reason}");
+}
+
+#[test]
+fn who_would_walk_out_of_the_world_gives_up() {
+    // a wall from the lower side of the world to the upper one; the only way leads around an end of it
+    let bounds = Aabb { min: Point2::new(-2.0, -2.0), max: Point2::new(2.0, 2.0) };
+    let wall = Shape::Segment { a: Point2::new(0.0, -2.0), b: Point2::new(0.0, 2.0) };
+    let checker = Checker::new(Scene::empty(bounds).with_obstacle("wall", wall), RustyDisc::default());
+    let problem = Problem::try_new(checker, R2::new(-1.0, 0.5), R2::new(1.0, 0.5), Seed(1)).unwrap();
+    let mut planner = Bug1Sensor::new(problem, None);
+    let reason = solve(&mut planner, &Bounds::default()).unwrap_err();
+    assert!(reason.to_string().contains("its way leads out of the world"), "{reason}");
+    assert!(planner.growth().nodes().iter().all(|node| bounds.contains(node.at.0)));
 }

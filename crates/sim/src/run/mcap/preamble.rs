@@ -85,7 +85,7 @@ impl Preamble {
         // world
         for (i, (world, text)) in worlds.iter().zip(&preamble.world_texts).enumerate() {
             let name = world_file(i);
-            match World::parse(&name, text) {
+            match World::parse_recorded(&name, text) {
                 Ok(read) if read == *world => {}
                 Ok(_) => return Err(content(&name, "the world is not one that a world file can describe")),
                 Err(e) => return Err(content(&name, &e.to_string())),
@@ -239,7 +239,7 @@ impl Preamble {
                 return Err(content(CONFIG, "the worlds are not numbered from 0"));
             }
             let text = file(name)?;
-            let world = World::parse(name, text).map_err(|e| content(name, &e.to_string()))?;
+            let world = World::parse_recorded(name, text).map_err(|e| content(name, &e.to_string()))?;
             if *entry(name)? != format!("{:032x}", world.content_hash()) {
                 return Err(content(name, "the world is not the one whose content hash the metadata has"));
             }

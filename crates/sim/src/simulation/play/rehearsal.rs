@@ -109,7 +109,7 @@ impl<R: SimulatedRobot> Rehearsal<R> {
             return Err(PlayError::TooLong(MAX_TICKS));
         }
         let InputTarget { q, mode, extra } = &mut self.driven;
-        let driver = Driver { robot: &self.robot, tour: &self.tour, slip: &self.slip, mode };
+        let driver = Driver { robot: &self.robot, tour: &self.tour, slip: &self.slip, mode, stands: false };
         let control = driver.control(tick, q, extra);
         let fitted = self.robot.fitted(q);
         let motion = fitted.drive(q, &control, DT).map_err(|source| PlayError::Configuration { tick, source })?;

@@ -1,5 +1,7 @@
 //! The systems that give each robot its control and its motion.
 
+use std::collections::BTreeSet;
+
 use bevy::ecs::query::QueryData;
 use bevy::prelude::*;
 
@@ -14,6 +16,12 @@ use motion_lab_core::num::greater;
 use motion_lab_core::random::Stream;
 use motion_lab_core::robots::{CHANNEL_UNITS, Motion};
 
+/// The robots of an app that stand while nobody drives them, by their ids; a run without this resource has none.
+///
+/// It is no part of a run's recipe: whoever replays a log of such a run says the same again.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct StandingRobots(pub BTreeSet<RobotId>);
+
 /// What does not change about a robot in a run, and its driver.
 pub(crate) struct Driver<'a, R: SimulatedRobot> {
     pub(crate) robot: &'a R,
@@ -21,12 +29,17 @@ pub(crate) struct Driver<'a, R: SimulatedRobot> {
     /// The stream of its actuation noise.
     pub(crate) slip: &'a Stream,
     pub(crate) mode: &'a DriveMode<R>,
+    /// Whether it stands when nobody drives it, instead of touring.
+    pub(crate) stands: bool,
 }
 
 impl<R: SimulatedRobot> Driver<'_, R> {
     /// The control commanded for a tick: by the driver's target, else the driver's channels, else the tour.
     fn commanded(&self, tick: u64, q: &R::Configuration, extra: &mut Extra) -> R::Control {
-        let Driver { robot, tour, mode, .. } = self;
+        let Driver { robot, tour, mode, stands, .. } = self;
+        if !mode.manual && *stands {
+            return R::Control::default();
+        }
         if !mode.manual {
             return robot.touring(tour, tick, DT, q, extra);
         }
@@ -54,6 +67,7 @@ impl<R: SimulatedRobot> Driver<'_, R> {
 #[derive(QueryData)]
 #[query_data(mutable)]
 pub(crate) struct Driven<R: SimulatedRobot> {
+    id: &'static RobotId,
     model: &'static RobotModel<R>,
     tour: &'static DrawnTour<R>,
     slip: &'static Slip,
@@ -65,16 +79,22 @@ pub(crate) struct Driven<R: SimulatedRobot> {
 }
 
 /// Gives every robot of a kind its control.
-pub(crate) fn drive<R: SimulatedRobot>(transport: Res<Transport>, mut robots: Query<Driven<R>>) {
+pub(crate) fn drive<R: SimulatedRobot>(
+    transport: Res<Transport>,
+    standing: Option<Res<StandingRobots>>,
+    mut robots: Query<Driven<R>>,
+) {
     let tick = transport.tick;
+    let standing = standing.as_deref();
     each(
         robots.iter_mut(),
         || (),
         |(), mut driven| {
             let q = driven.configuration.0;
             driven.previous.0 = q;
-            let DrivenItem { model, tour, slip, mode, .. } = &driven;
-            let driver = Driver { robot: &model.0, tour: &tour.0, slip: &slip.0, mode };
+            let DrivenItem { id, model, tour, slip, mode, .. } = &driven;
+            let stands = standing.is_some_and(|standing| standing.0.contains(*id));
+            let driver = Driver { robot: &model.0, tour: &tour.0, slip: &slip.0, mode, stands };
             driven.control.0 = driver.control(tick, &q, &mut driven.own.extra);
         },
     );
