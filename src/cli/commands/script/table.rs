@@ -30,7 +30,7 @@ type TableCell = (usize, String);
 
 /// How a table is written, as its first row shows.
 #[derive(Clone, Copy)]
-struct TableForm {
+struct TableDialect {
     /// The sign between cells. If it is no comma, a comma may stand for a decimal point.
     separator: char,
     /// The cells of each row that come before the tick: a data frame's index, where the heading shows one.
@@ -43,17 +43,17 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptT
     // of each event the line, and the columns of its tick, its robot, its input and that input's first value
     let mut rows: Vec<(usize, [usize; 4])> = Vec::new();
     let text = text.trim_start_matches('\u{feff}'); // spreadsheets put a mark in front
-    let mut form: Option<TableForm> = None;
+    let mut form: Option<TableDialect> = None;
     for (line, row) in (1..).zip(rows_of(text)) {
         if row.trim().is_empty() || row.trim_start_matches('"').starts_with('#') {
             continue;
         }
         if form.is_none() && row.trim().trim_matches('"').to_ascii_lowercase().starts_with("sep=") {
-            form = row.trim().trim_matches('"').chars().nth(4).map(|separator| TableForm { separator, index: 0 });
+            form = row.trim().trim_matches('"').chars().nth(4).map(|separator| TableDialect { separator, index: 0 });
             continue;
         }
         let at = |(column, reason): (usize, String)| ScriptTableError { line, column, reason };
-        let used = *form.get_or_insert_with(|| TableForm { separator: separator(row), index: 0 });
+        let used = *form.get_or_insert_with(|| TableDialect { separator: separator(row), index: 0 });
         let mut cells = cells(row, used.separator).map_err(at)?;
         if cells.iter().all(|(_, text)| text.is_empty()) {
             continue;
@@ -61,7 +61,7 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptT
         let heading = cells.iter().take(2).position(|(_, text)| text.eq_ignore_ascii_case("tick"));
         // a robot may be called tick
         if let (true, Some(index)) = (rows.is_empty(), heading.filter(|_| decimal(&cells[0].1).is_none())) {
-            form = Some(TableForm { index, ..used });
+            form = Some(TableDialect { index, ..used });
             continue;
         }
         cells.drain(..used.index.min(cells.len()));
@@ -121,7 +121,7 @@ fn decimal(text: &str) -> Option<f64> {
 struct TableRow<'a> {
     cells: &'a [TableCell],
     end: usize,
-    form: TableForm,
+    form: TableDialect,
 }
 
 impl TableRow<'_> {

@@ -67,8 +67,8 @@ impl WorldObstacles {
         there == self.entities().count() && self.entities().enumerate().all(is_placed)
     }
 
-    /// The ground of a world whose obstacles and doors have these entities, in their order; [`dress_all`](Self::dress_all)
-    /// spawns those that are missing or `None`.
+    /// The ground of a world whose obstacles and doors have these entities, in their order.
+    /// [`dress_all`](Self::dress_all) spawns those that are missing or `None`.
     pub(crate) fn new(entity: Entity, number: usize, start: Arc<WorldModel>, entities: &[Option<Entity>]) -> Self {
         let (changed, numbers) = (BTreeSet::new(), BTreeMap::new());
         let mut ground = WorldObstacles {
