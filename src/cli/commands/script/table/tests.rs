@@ -92,6 +92,7 @@ fn errors_name_line_column_and_reason() {
         ("5,Rusty,Release\n4,Rusty,Release", "2:1: tick 4 comes after tick 5: ticks must ascend"),
         ("5", "1:2: the robot is missing"),
         ("5,,Release", "1:3: the robot is missing"),
+        ("5\t\tRelease", "1:3: the robot is missing"),
         ("5,Rusty", "1:8: the input is missing"),
         ("5,Rusty,drive,1,2", "1:9: \"drive\" is no input: it must be Drive, MoveTo, Teleport, SetTrailer or Release"),
         ("5,Rusty,Drive,1", "1:16: the second channel is missing"),
