@@ -43,9 +43,9 @@ impl WorldDraft {
         }
     }
 
-    /// The first note that says of a thing that it is left out.
-    pub fn first_left_out(&self) -> Option<&str> {
-        self.notes.iter().map(String::as_str).find(|note| note.contains(" is left out"))
+    /// The first note but `common` that says of a thing that it is left out.
+    pub fn first_left_out(&self, common: &str) -> Option<&str> {
+        self.notes.iter().map(String::as_str).find(|note| *note != common && note.contains(" is left out"))
     }
 
     /// Returns the finished world with these bounds, and the notes.

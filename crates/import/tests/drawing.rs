@@ -143,7 +143,7 @@ fn drawings_that_cannot_be_worlds_are_refused_with_line_and_element() {
     let refuse = |inside: &str| svg("d.svg", &drawing(inside), "d", SvgOptions::default()).unwrap_err().to_string();
     assert_eq!(refuse(""), "d.svg: there is no obstacle in it");
     assert_eq!(refuse("<text x='1' y='1'>words</text>"), "d.svg: there is no obstacle in it");
-    let photo = refuse("\n<image id='photo' href='/etc/passwd'/>");
+    let photo = refuse("\n<image id='photo' href='/etc/passwd'/><text>words</text>");
     assert_eq!(photo, "d.svg: there is no obstacle in it: image \"photo\" is left out");
     assert_eq!(
         refuse("<foreignObject/>"),

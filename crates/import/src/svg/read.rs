@@ -83,7 +83,7 @@ fn read(text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportE
     let drawing = SvgDrawing { root, styles: &styles, targets: &targets, labels: &labels, options };
     let sheet = drawing.obstacles(&mut draft)?;
     if draft.world.is_empty() {
-        let left_out = draft.first_left_out().filter(|note| *note != TEXT_LEFT_OUT);
+        let left_out = draft.first_left_out(TEXT_LEFT_OUT);
         return Err(left_out.map_or(ImportProblem::Nothing, |note| ImportProblem::NothingLeft(note.into())).into());
     }
     Ok(draft.finish(name, (0.0, 0.0), sheet).map_err(ImportProblem::from)?)
