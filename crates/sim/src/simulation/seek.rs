@@ -11,8 +11,8 @@ use super::{Keyframes, RestoreError, SimulationSchedule, Transport, state::put_f
 use crate::run::Frame;
 
 /// Runs one tick. Before the first, the run becomes that of its entities; before a later one, what others have changed
-/// of them is put back ([`settle`](super::settle)). After it, the contacts that began or ended in it are triggered as [`ContactBegan`](super::ContactBegan)
-/// and [`ContactEnded`](super::ContactEnded).
+/// of them is put back ([`settle`](super::settle)). After it, the contacts that began or ended in it are triggered as
+/// [`ContactBegan`](super::ContactBegan) and [`ContactEnded`](super::ContactEnded).
 pub fn step(world: &mut World) {
     settle(world);
     contact::with_events(world, advance);
@@ -46,8 +46,8 @@ pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     Ok(())
 }
 
-/// Says that the run is known to have reached a tick before, as one that is brought back from a file: it lies within its
-/// frontier.
+/// Says that the run is known to have reached a tick before, as one that is brought back from a file: it lies within
+/// its frontier.
 pub fn extend_frontier(world: &mut World, tick: u64) {
     let mut transport = world.resource_mut::<Transport>();
     transport.frontier = std::cmp::max(transport.frontier, tick);

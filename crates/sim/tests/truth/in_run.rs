@@ -14,7 +14,8 @@ use motion_lab_sim::simulation::{
 use super::start::find_obstacle;
 use super::*;
 
-/// Runs ten ticks, lets `change` at the world, looks what is refused, and fails unless the run goes on as it would have.
+/// Runs ten ticks, lets `change` at the world, looks what is refused, and fails unless the run goes on as it would
+/// have.
 #[track_caller]
 fn refusals_of(change: impl FnOnce(&mut Ecs)) -> Vec<String> {
     let mut app = app();

@@ -1,5 +1,5 @@
-//! Whatever others do, and in whatever order: entities, configuration and frame agree, and the run's configuration, seed
-//! and script give its bits anywhere.
+//! Whatever others do, and in whatever order: entities, configuration and frame agree, and the run's configuration,
+//! seed and script give its bits anywhere.
 
 use bevy::prelude::{Component, Entity, EntityWorldMut, With};
 use motion_lab_core::configuration::Configuration as _;

@@ -12,8 +12,8 @@ use crate::tour::TourConfig;
 use motion_lab_core::geometry::{Pose2, Shape};
 use motion_lab_core::worlds::{Door as DoorModel, Obstacle, World as WorldModel};
 
-/// Makes the obstacle entities of a run at tick 0 what its robots meet: the worlds of `config`, whose robots are those of
-/// the run to be, and their scenes follow from them. The worlds in `lost` were despawned: they keep what they had.
+/// Makes the obstacle entities of a run at tick 0 what its robots meet: the worlds of `config`, whose robots are those
+/// of the run to be, and their scenes follow from them. The worlds in `lost` were despawned: they keep what they had.
 ///
 /// The world file's obstacles keep their order, then come the others by their names. An entity that is no obstacle of a
 /// world file (a taken or bad name, no valid piece) is left out, and a [`CommandRefused`] says so.

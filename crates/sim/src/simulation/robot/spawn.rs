@@ -213,8 +213,8 @@ fn spawn(world: &mut World, request: &SpawnRequest) -> Result<Entity, SpawnError
     }
 }
 
-/// Gives a robot of the run under way its components, on an entity of its own if it has lost it, with the values that it
-/// has at the present tick.
+/// Gives a robot of the run under way its components, on an entity of its own if it has lost it, with the values that
+/// it has at the present tick.
 pub(crate) fn respawn(world: &mut World, id: usize) {
     let (config, seed) = (Arc::clone(world.resource::<RunConfig>().config()), world.resource::<Transport>().seed);
     let found = config.worlds.iter().enumerate().flat_map(|(w, m)| m.robots.iter().map(move |r| (w, r))).nth(id);

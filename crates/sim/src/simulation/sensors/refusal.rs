@@ -7,7 +7,8 @@ use bevy::prelude::*;
 use motion_lab_core::sensors::SensorError;
 use motion_lab_core::worlds::MAX_SENSORS;
 
-/// A sensor that is not taken into the run: a message to whoever shows the run, and kept in [`SensorRoster::refused`](crate::simulation::SensorRoster::refused).
+/// A sensor that is not taken into the run: a message to whoever shows the run, and kept in
+/// [`SensorRoster::refused`](crate::simulation::SensorRoster::refused).
 ///
 /// Prints as `robot "Rusty", sensor "front": 0 rays: there must be 1 to 100000`.
 #[derive(Message, Clone, Debug, PartialEq)]

@@ -36,8 +36,8 @@ pub enum RefusedEvent {
     Command(ScriptError),
 }
 
-/// The inputs that a run refused, to robots and to worlds: those of its script, each tick counted once however often the
-/// run goes back to it, and commands that never came into the script. It is no part of the run.
+/// The inputs that a run refused, to robots and to worlds: those of its script, each tick counted once however often
+/// the run goes back to it, and commands that never came into the script. It is no part of the run.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Refusals {
     count: u64,

@@ -120,8 +120,8 @@ fn follow_entities(world: &mut World, lost: &BTreeSet<usize>) {
     take_sensors(world);
 }
 
-/// Makes these entities the robots of the run. Where no run with all of them would start, as with too many, the run keeps
-/// the robots that it had, on entities of their own.
+/// Makes these entities the robots of the run. Where no run with all of them would start, as with too many, the run
+/// keeps the robots that it had, on entities of their own.
 fn take_robots(world: &mut World, old: &TourConfig, config: &mut TourConfig, entities: Vec<Vec<Option<Entity>>>) {
     let seed = world.resource::<Transport>().seed;
     let worlds = world.resource::<Roster>().worlds.clone();
@@ -183,8 +183,8 @@ fn begin_anew(world: &mut World, is_other: bool) {
     state::record(world);
 }
 
-/// The run leaves tick 0: what is an obstacle or a sensor of it by its components, and was not taken into it, is none any
-/// more.
+/// The run leaves tick 0: what is an obstacle or a sensor of it by its components, and was not taken into it, is none
+/// any more.
 pub(in crate::simulation) fn leave_start(world: &mut World) {
     let obstacles = world.query_filtered::<Entity, (With<ObstacleShape>, With<ObstacleOf>)>().iter(world).collect();
     let sensors = world.query_filtered::<Entity, (With<SensorModel>, With<MountedOn>)>().iter(world).collect();

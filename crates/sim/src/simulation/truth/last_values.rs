@@ -73,8 +73,9 @@ impl<R: SimulatedRobot> LastValues<R> {
     }
 }
 
-/// Compares the components of a robot with the values kept, puts those back that `puts_back` says, and returns the names
-/// of all that differ. One that is there with other bits and compares as equal, as -0.0 does, is put back in silence.
+/// Compares the components of a robot with the values kept, puts those back that `puts_back` says, and returns the
+/// names of all that differ. One that is there with other bits and compares as equal, as -0.0 does, is put back in
+/// silence.
 fn compare<R: SimulatedRobot>(world: &mut World, e: Entity, puts_back: bool) -> Option<Vec<String>> {
     let mut robot = world.get_entity_mut(e).ok()?;
     let kept = robot.get::<LastValues<R>>()?.clone();

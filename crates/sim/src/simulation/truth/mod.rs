@@ -21,8 +21,8 @@ use super::{Roster, Transport};
 pub(super) use follow::leave_start;
 
 /// Makes entities and run agree after others have changed entities. [`step`](crate::simulation::step),
-/// [`seek`](crate::simulation::seek()) and the plugin call it; whoever changes entities and reads frame 0 right after it
-/// calls it first.
+/// [`seek`](crate::simulation::seek()) and the plugin call it; whoever changes entities and reads frame 0 right after
+/// it calls it first.
 ///
 /// While the run stands at tick 0 the entities are the truth: the run's configuration, its script and frame 0 follow
 /// them. Later the run is, and what was changed is put back. What can't be followed, and all that is put back, is
