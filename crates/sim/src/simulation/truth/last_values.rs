@@ -111,8 +111,29 @@ fn put<C: Component<Mutability = bevy::ecs::component::Mutable> + PartialEq>(
     Some(differs)
 }
 
+/// Whether the components of a robot are those that the simulation wrote last: what is part of a frame to the bit.
+fn are_untouched<R: SimulatedRobot>(world: &World, e: Entity) -> Option<bool> {
+    let robot = world.get_entity(e).ok()?;
+    let last = robot.get::<LastValues<R>>()?;
+    let (q, mode, own) = (robot.get::<Configuration<R>>()?, robot.get::<DriveMode<R>>()?, robot.get::<OwnState<R>>()?);
+    let same_mode = *mode == last.mode && mode.target.zip(last.mode.target).is_none_or(|(now, last)| same(&now, &last));
+    let same_own = own.extra.iter().map(|x| x.to_bits()).eq(last.own.extra.iter().map(|x| x.to_bits()));
+    let others = robot.get::<PreviousConfiguration<R>>()? == &last.previous
+        && robot.get::<Control<R>>()? == &last.control
+        && robot.get::<Contacts<R>>()? == &last.contacts;
+    Some(same(&q.0, &last.configuration.0) && same_mode && same_own && others)
+}
+
+/// Whether two configurations have the same bits.
+fn same<C: motion_lab_core::configuration::Configuration>(a: &C, b: &C) -> bool {
+    a.coordinates().iter().map(|x| x.to_bits()).eq(b.coordinates().iter().map(|x| x.to_bits()))
+}
+
 /// Puts the values of a robot back, and returns the names of the components that differed.
 pub(crate) fn put_back<R: SimulatedRobot>(world: &mut World, e: Entity) -> Vec<String> {
+    if are_untouched::<R>(world, e) == Some(true) {
+        return Vec::new();
+    }
     compare::<R>(world, e, true).unwrap_or_default()
 }
 
