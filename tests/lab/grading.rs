@@ -92,7 +92,7 @@ fn logs_of_a_kind_of_ones_own_are_graded_and_forged_ones_found() {
     assert!(difference.first_tick() == 12 && difference.to_string().contains("configuration[4]"), "{difference}");
 
     // an assignment that does not know trains
-    let ahead = "Assignment(version: 1, world: \"lot\", robot: \"Hitch\", goal: (at: [7.5, 2.5, 0], within: [1, 1, 1]),
+    let ahead = "Assignment(version: 1, world: \"lot\", robot: \"Hitch\", goal: (at: [11, 2.5, 0], within: [1, 1, 1]),
         limits: (ticks: 9), seeds: [1])";
     let plain = AssignmentFile::parse("plain.ron", ahead).unwrap().in_world(World::lot()).unwrap();
     let refusal = plain.grade(&Submission::Log(Box::new(log))).refusal.unwrap();

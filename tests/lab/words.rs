@@ -97,7 +97,7 @@ fn mistakes_in_assignments_and_scripts_are_named_with_their_item() {
         (
             "robot:",
             "robots:",
-            "3: there is no field `robots` here: the fields are version, world, robot, start, goal, stay, limits, points or seeds",
+            "3: there is no field `robots` here: the fields are version, world, robot, start, goal, stay, limits, points, set_trailer or seeds",
         ),
         ("at: [7.5, 2.5, 0], ", "", "4: goal: the field `at` is missing"),
         ("within", "width", "4: goal: there is no field `width` here: the fields are at, within or ticks"),

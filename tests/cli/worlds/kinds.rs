@@ -73,7 +73,7 @@ fn grading_says_who_has_the_robot() {
     says_what_to_do(&message);
     assert!(message.contains("exam.ron:1: start: ") && message.contains("\"Train\""), "{message}");
     // a submission with a train, where the lab's car is asked for
-    exam("lot", "Hitch", "7, 2.5, 0");
+    exam("lot", "Hitch", "11, 2.5, 0");
     let graded = run_in(folder.path(), &["grade", "--json", "exam.ron", "train.mcap"]);
     assert_eq!(graded.code, Some(4), "{}", graded.err);
     let row = crate::cli::json(&graded.out);
