@@ -15,8 +15,11 @@ fn progress_with_rate_and_time_left_is_shown_on_a_terminal() {
     }
     let folder = folder();
     fs::write(folder.path().join("poses.jsonl"), "[3,5.5]\n".repeat(500)).unwrap();
-    fs::write(folder.path().join("wait.ron"), "Script(version: 1, events: [])").unwrap();
-    let exam = "Assignment(version: 1, world: \"lot\", robot: \"Hitch\", goal: (at: [7.5, 2.5, 0], within: [9, 9, 9]), \
+    let ahead = "Script(version: 1, events: [(tick: 1, robot: \"Hitch\", input: Drive(128, 0)), \
+                 (tick: 14, robot: \"Hitch\", input: Drive(0, 0))])";
+    fs::write(folder.path().join("wait.ron"), ahead).unwrap();
+    let exam = "Assignment(version: 1, world: \"lot\", robot: \"Hitch\", start: [6.5, 2.5, 0], \
+                goal: (at: [7.5, 2.5, 0], within: [0.11, 0.1, 0.1]), \
                 stay: (at: end), limits: (ticks: 60), seeds: \"0..9\")";
     fs::write(folder.path().join("exam.ron"), exam).unwrap();
     for i in 0..12 {
