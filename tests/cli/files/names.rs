@@ -108,7 +108,7 @@ fn a_seed_that_no_double_is_is_a_text_in_json_and_read_again() {
         let read = motion_lab::plans::PathFile::read(&path).unwrap();
         assert_eq!(json(&read.to_json().unwrap())["seed"], written);
     }
-    let exam = "Assignment(version: 1, world: \"lot\", robot: \"Hitch\", goal: (at: [7.5, 2.5, 0], within: [9, 9, 9]), \
+    let exam = "Assignment(version: 1, world: \"lot\", robot: \"Hitch\", goal: (at: [9.5, 2.5, 0], within: [0.1, 0.1, 0.1]), \
                 limits: (ticks: 2), seeds: [9007199254740993])";
     fs::write(at.join("exam.ron"), exam).unwrap();
     fs::write(at.join("wait.ron"), "Script(version: 1, events: [])").unwrap();

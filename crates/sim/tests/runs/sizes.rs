@@ -264,7 +264,7 @@ fn robots_of_the_smallest_and_the_largest_sizes_run() {
             trailer: (hitch_len: 0.1, front_overhang: 0, rear_overhang: 0.001, width: 0.001))"#,
     ] {
         let text = format!(
-            "World(version: 1, name: \"w\", bounds: (min: (-5, -5), max: (5, 5)),\n\
+            "World(version: 1, name: \"w\", bounds: (min: (-10000, -10000), max: (10000, 10000)),\n\
              walls: [(name: \"wall\", points: [(1, -5), (1, 5)])], robots: [{}])",
             sizes(robot)
         );

@@ -4,6 +4,7 @@
 use std::f64::consts::{FRAC_PI_2, SQRT_2};
 
 use bevy::app::App;
+use bevy::prelude::Messages;
 use motion_lab_core::prelude::*;
 use motion_lab_core::random::Stream;
 use motion_lab_core::sensors::{BeamModel, FanSensor, RangeSensor, SensorError};
@@ -11,8 +12,9 @@ use motion_lab_core::worlds::{ResidentSensor, World};
 use motion_lab_sim::recording::{Recorder, Run, verify};
 use motion_lab_sim::run::{Frame, Log};
 use motion_lab_sim::simulation::{
-    LatestFrame, MountedOn, Roster, Scan, SensorModel, SensorMount, SensorName, SensorNoise, SensorRefusal,
-    SensorRoster, SimulationPlugin, SpawnError, Transport, seek, sensors, settle, start_run, step,
+    CommandError, CommandRefused, LatestFrame, MountedOn, Roster, Scan, SensorModel, SensorMount, SensorName,
+    SensorNoise, SensorRefusal, SensorRoster, SimulationPlugin, SpawnError, Transport, seek, sensors, settle,
+    start_run, step,
 };
 use motion_lab_sim::tour::{BOOK_SEED, ConfigError, TourConfig};
 
@@ -188,9 +190,17 @@ fn from_the_first_tick_on_sensors_are_fixed_and_a_change_is_refused() {
     app.world_mut().spawn((SensorModel::from(rays), SensorName("late".into()), MountedOn(car)));
     app.world_mut().entity_mut(ahead).insert(SensorModel::from(rays));
     app.world_mut().despawn(left);
-    let words: Vec<String> = app.world().resource::<SensorRoster>().refused().iter().map(ToString::to_string).collect();
-    let fixed = "the sensors of a run are fixed from its first tick on: this change has no effect";
-    assert_eq!(words, ["late", "ahead", "left"].map(|name| format!("robot \"car\", sensor {name:?}: {fixed}")));
+    let mut refused = app.world_mut().resource_mut::<Messages<CommandRefused>>();
+    let things: Vec<String> = refused
+        .drain()
+        .map(|CommandRefused(error)| match error {
+            CommandError::Foreign(change) => format!("{} {}", change.thing, change.component),
+            other => panic!("{other}"),
+        })
+        .collect();
+    let of_car = |name: &str| format!("sensor {name:?} of robot \"car\" ");
+    assert_eq!(things, ["sensor \"late\" SensorModel".to_owned(), of_car("ahead") + "SensorModel", of_car("left")]);
+    assert_eq!(app.world().get::<SensorModel>(ahead).map(|model| model.0.sensor.n_rays == 2), Some(false));
     assert_eq!(run_to(&mut app, 8), expected[4..9]);
     // nor do they come in when the run is taken back
     seek(app.world_mut(), 0).unwrap();
