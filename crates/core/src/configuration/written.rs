@@ -158,7 +158,7 @@ mod tests {
     fn degrees_are_parts_of_pi_and_numbers_are_themselves() {
         // the nearest doubles to pi/2, -pi, pi/180 and 2.5 pi, by a calculator of many digits
         for (text, value) in [
-            ("90deg", 1.570_796_326_794_896_6),
+            ("90deg", std::f64::consts::FRAC_PI_2),
             ("-180deg", -PI),
             ("1 deg", 0.017_453_292_519_943_295),
             ("450deg", 7.853_981_633_974_483),

@@ -111,7 +111,7 @@ fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) -> Re
     let script = Script { events: vec![event.clone()], ..Script::empty() };
     let names = if known { vec![event.robot.as_str()] } else { Vec::new() };
     if let Err(error) = script.check().and_then(|()| script.check_robots(&names)) {
-        world.resource_mut::<Refusals>().note(|| RefusedEvent::Command(error.clone()));
+        world.resource_mut::<Refusals>().note(|| RefusedEvent::Command(Box::new(error.clone())));
         return Err(error.into());
     }
     if tick < frontier || looping {

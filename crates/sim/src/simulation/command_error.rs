@@ -29,7 +29,7 @@ pub enum CommandError {
         /// The name that it gives itself.
         name: String,
         /// The reason.
-        reason: RobotRefusal,
+        reason: Box<RobotRefusal>,
         /// Whether it stays in the run as it was. Otherwise it is no robot of the run.
         stays: bool,
     },

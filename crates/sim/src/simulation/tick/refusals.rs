@@ -33,7 +33,7 @@ pub enum RefusedEvent {
     /// An input that no script could hold: to an unknown robot, or with a channel out of range. It is none of the
     /// script's.
     #[error("{}", .0.problem)]
-    Command(ScriptError),
+    Command(Box<ScriptError>),
 }
 
 /// The inputs that a run refused, to robots and to worlds: those of its script, each tick counted once however often

@@ -100,7 +100,7 @@ fn follow_entities(world: &mut World, lost: &BTreeSet<usize>) {
     let FoundRobots { worlds: robots, refused } = residents::find(world, &old, lost);
     for refusal in &refused {
         let (entity, name, reason, stays) =
-            (refusal.entity, refusal.name.clone(), refusal.reason.clone(), refusal.stays);
+            (refusal.entity, refusal.name.clone(), Box::new(refusal.reason.clone()), refusal.stays);
         world.write_message(CommandRefused(CommandError::NoRobot { entity, name, reason, stays }));
         if !stays {
             take_off(world, entity);
@@ -134,7 +134,7 @@ fn take_robots(world: &mut World, old: &TourConfig, config: &mut TourConfig, ent
     let spawned = spawn(world, config, &entities).or_else(|error| {
         for (entity, name) in entities.0.iter().flatten().zip(config.robot_names()) {
             let Some(entity) = *entity else { continue };
-            let (name, reason) = (name.to_owned(), RobotRefusal::Spawn(error.clone()));
+            let (name, reason) = (name.to_owned(), Box::new(RobotRefusal::Spawn(error.clone())));
             world.write_message(CommandRefused(CommandError::NoRobot { entity, name, reason, stays: false }));
             take_off(world, entity);
         }
