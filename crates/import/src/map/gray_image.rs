@@ -36,7 +36,7 @@ pub(crate) fn sixteen_bits(sample: u16, max: u16) -> u16 {
     ((2 * sample * 65535 + max) / (2 * max)).min(65535) as u16
 }
 
-/// The shade of samples of 16 bits, as GraphicsMagick computes it for Nav2: Rec. 601's weights in 1024ths, then 8 bits,
+/// The shade of samples of 16 bits, as GraphicsMagick computes it for Nav2: Rec. 601's weights over 1024, then 8 bits,
 /// both rounded down.
 pub(crate) fn shade([red, green, blue]: [u16; 3]) -> u8 {
     let intensity = (306 * u64::from(red) + 601 * u64::from(green) + 117 * u64::from(blue)) >> 10;

@@ -191,7 +191,7 @@ mod tests {
 
     #[test]
     fn colours_become_shades() {
-        // 306, 601 and 117 1024ths of 255, rounded down
+        // 255 times 306, 601 and 117, each over 1024 and rounded down
         let colours = [76, 149, 29, 255, 205];
         assert_eq!(shades(b"P3 5 1 255 255 0 0  0 255 0  0 0 255  255 255 255  205 205 205"), colours);
         assert_eq!(shades(b"P6 5 1 255\n\xff\0\0\0\xff\0\0\0\xff\xff\xff\xff\xcd\xcd\xcd"), colours);

@@ -11,7 +11,7 @@ use super::{Keyframes, RestoreError, SimulationSchedule, Transport, state::put_f
 use crate::run::Frame;
 
 /// Runs one tick. Before the first, the run becomes that of its entities; before a later one, what others have changed
-/// of them is put back ([`settle`](super::settle)). After it, the contacts that began or ended in it are triggered as
+/// of them is put back ([`settle`]). After it, the contacts that began or ended in it are triggered as
 /// [`ContactBegan`](super::ContactBegan) and [`ContactEnded`](super::ContactEnded).
 pub fn step(world: &mut World) {
     settle(world);
