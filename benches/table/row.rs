@@ -26,7 +26,7 @@ impl Mark {
         Mark { is_cost: true, bound: None, unit }
     }
 
-    /// A cost of at most so many.
+    /// A cost of at most this.
     pub const fn at_most(bound: f64, unit: &'static str) -> Self {
         Mark { is_cost: true, bound: Some(bound), unit }
     }

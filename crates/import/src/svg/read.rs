@@ -137,7 +137,7 @@ impl SvgDrawing<'_> {
         Ok(walk.extent(&parts).map_or(UNKNOWN, |Extent2 { max, .. }| (max.x, max.y)))
     }
 
-    /// The length of a pixel of the sheet, metres. A note says how it came about, unless it is plain.
+    /// The length of a pixel of the sheet, metres. Unless a unit of the drawing is a metre, a note says what it is.
     fn metres_per_pixel(&self, size: &SheetSize, draft: &mut WorldDraft) -> f64 {
         let [a, b, ..] = size.to_pixels.0;
         let pixels_per_unit = motion_lab_core::num::hypot(a, b);

@@ -120,7 +120,7 @@ impl YamlBuilder {
         self.close(node, 0, values)
     }
 
-    /// Adds a finished node, which counts as so many values, to the list or mapping that it stands in.
+    /// Adds a finished node to the list or mapping that it stands in. It holds this number of values.
     fn close(&mut self, node: YamlNode, anchor: usize, values: usize) -> Result<(), ImportError> {
         self.values += values;
         if self.values > MAX_VALUES {

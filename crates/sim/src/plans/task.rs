@@ -48,7 +48,7 @@ pub struct Task {
     /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
     /// sensor.
     pub noise: Option<BeamModel>,
-    /// Who answers the planner's questions. Only with [`CheckerName::Exact`] is a path proven, and can be played.
+    /// Who answers the planner's questions. Only with [`CheckerName::EXACT`] is a path proven, and can be played.
     pub checker: CheckerName,
 }
 
@@ -65,7 +65,7 @@ impl Task {
             goal,
             tube: TUBE,
             noise: None,
-            checker: CheckerName::Exact,
+            checker: CheckerName::EXACT,
         }
     }
 

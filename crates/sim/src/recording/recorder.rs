@@ -8,7 +8,7 @@ use bevy::ecs::world::World;
 use crate::run::{Frame, Recipe, RunInput, Script};
 use crate::simulation::{
     Keyframes, LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, SensorView,
-    SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_recipe, step, view,
+    SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_recipe, step_alone, view,
 };
 use crate::tour::TourConfig;
 use motion_lab_core::worlds::World as WorldModel;
@@ -107,7 +107,7 @@ impl Recorder {
 
     /// Runs one tick and returns its frame.
     pub fn step(&mut self) -> &Frame {
-        step(&mut self.world);
+        step_alone(&mut self.world);
         self.frame()
     }
 

@@ -58,6 +58,7 @@ pub use robot::simulated::{Extra, SimulatedRobot};
 pub use robot::view::RobotView;
 pub use roster::{Roster, footprint_of, view, view_of};
 pub use schedule::{SimulationSchedule, SimulationSystems};
+pub(crate) use seek::step_alone;
 pub use seek::{extend_frontier, play_tick, restore, seek, step};
 pub use sensors::refusal::{SensorRefusal, SensorRefused};
 pub use sensors::roster::SensorRoster;

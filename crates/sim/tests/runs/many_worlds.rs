@@ -147,7 +147,7 @@ fn every_robot_counts_its_own_contacts() {
     assert!(touching.eq([true, false, true, false, true, true]));
 }
 
-/// Cars, because they drive exactly as far as they are told. Two stand bumper to bumper; the third is alone in its
+/// Cars, because they drive exactly as far as their inputs say. Two stand bumper to bumper; the third is alone in its
 /// world, where the first of them stands in the other.
 #[test]
 fn who_is_near_a_robot_is_not_near_the_next_one_in_another_world() {

@@ -50,7 +50,7 @@ pub(crate) struct ContactsBefore(Vec<bool>);
 /// Runs `tick` in the world, then triggers the events of the contacts that began or ended in it. Without observers it
 /// compares nothing.
 pub(crate) fn with_events(world: &mut World, tick: impl FnOnce(&mut World)) {
-    if !(is_observed::<ContactBegan>(world) || is_observed::<ContactEnded>(world)) {
+    if !are_observed(world) {
         return tick(world);
     }
     let mut before = std::mem::take(&mut world.get_resource_or_init::<ContactsBefore>().0);
@@ -77,6 +77,11 @@ pub(crate) fn with_events(world: &mut World, tick: impl FnOnce(&mut World)) {
         }
         world.flush();
     }
+}
+
+/// Whether somebody observes contacts.
+pub(crate) fn are_observed(world: &World) -> bool {
+    is_observed::<ContactBegan>(world) || is_observed::<ContactEnded>(world)
 }
 
 fn is_observed<E: Event>(world: &World) -> bool {

@@ -9,7 +9,7 @@ use crate::simulation::{
 };
 use motion_lab_core::configuration::Configuration as _;
 
-/// The values of a robot as the simulation wrote them last: what other systems write meanwhile is told from them, and
+/// The values of a robot as the simulation wrote them last: what other systems write meanwhile differs from them, and
 /// put back. Only the simulation can name it.
 #[derive(Component, Clone, Debug)]
 #[component(clone_behavior = Ignore)]
