@@ -89,6 +89,44 @@ fn values_that_are_written_are_put_back() {
 }
 
 #[test]
+fn each_value_that_is_written_in_place_is_put_back() {
+    type Write = fn(&mut bevy::prelude::EntityWorldMut);
+    let writes: [(&str, Write); 4] = [
+        ("Control<Rusty>", |e| *e.get_mut::<Control<Rusty>>().unwrap() = Control::default()),
+        ("Contacts<Rusty>", |e| *e.get_mut::<Contacts<Rusty>>().unwrap() = Contacts::default()),
+        ("OwnState<Rusty>", |e| *e.get_mut::<OwnState<Rusty>>().unwrap() = OwnState::default()),
+        ("DriveMode<Rusty>", |e| *e.get_mut::<DriveMode<Rusty>>().unwrap() = DriveMode::default()),
+    ];
+    for (component, write) in writes {
+        let mut app = app();
+        drive(&mut app, "A", (128, 0));
+        // straight on it meets the other rover, and has values of every sort that are not those of a start
+        while frame(app.world()).robots[0].contacts == 0 {
+            assert!(frame(app.world()).tick < 100);
+            step(app.world_mut());
+        }
+        let e = a(app.world());
+        let before = format!("{:?}", values(app.world(), e));
+        write(&mut app.world_mut().entity_mut(e));
+        assert_ne!(format!("{:?}", values(app.world(), e)), before, "{component}");
+        motion_lab_sim::simulation::settle(app.world_mut());
+        assert_eq!(format!("{:?}", values(app.world(), e)), before, "{component}");
+        let said = refused(app.world_mut());
+        assert!(said.len() == 1 && said[0].contains(&format!("): {component} was changed past")), "{said:?}");
+        steps(app.world_mut(), 3);
+        assert_recorded(app.world());
+    }
+}
+
+/// The values of a rover.
+type Values<'a> = (&'a Control<Rusty>, &'a Contacts<Rusty>, &'a OwnState<Rusty>, &'a DriveMode<Rusty>);
+
+fn values(world: &Ecs, e: Entity) -> Values<'_> {
+    let e = world.entity(e);
+    (e.get().unwrap(), e.get().unwrap(), e.get().unwrap(), e.get().unwrap())
+}
+
+#[test]
 fn a_negative_zero_is_put_back_too() {
     let mut app = app();
     steps(app.world_mut(), 3);
