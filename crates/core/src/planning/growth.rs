@@ -1,6 +1,6 @@
 //! `Growth`, what a planner has grown so far, to be drawn and counted.
 
-use super::{Effort, LinePath};
+use super::Effort;
 use crate::collision::{Checker, EdgeVerdict, HitBy, Witness};
 use crate::robots::{ChartLine, Motion, Robot, stays_within};
 
@@ -160,13 +160,6 @@ impl<C: Copy, M: Motion<Configuration = C>> Growth<C, M> {
 }
 
 impl<R: Robot> Growth<R::Configuration, ChartLine<R>> {
-    /// The certified path of straight edges through these nodes; `None` in the rare case that a quick proof of an edge
-    /// has no certificate.
-    pub fn certified(&self, checker: &Checker<R>, nodes: &[usize]) -> Option<LinePath<R>> {
-        let corners: Vec<R::Configuration> = nodes.iter().map(|node| self.nodes[*node].at).collect();
-        LinePath::through(checker, &corners).ok()
-    }
-
     /// Asks whether the edge from `a` to `b` is proven free, as [`ask`](Self::ask). False when an end is not a
     /// configuration of the robot.
     pub fn ask_edge(&mut self, checker: &Checker<R>, a: &R::Configuration, b: &R::Configuration) -> bool {

@@ -148,17 +148,26 @@ pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 
         return Err(PathError::OtherEnds);
     }
     path.verify(problem.checker().scene())?;
-    let (robot, bounds) = (problem.checker().robot(), problem.checker().scene().bounds());
-    if let Some(leg) = path.legs().iter().position(|leg| !stays_within(robot, leg.motion(), &bounds)) {
-        return Err(PathError::Outside(leg));
-    }
+    keeps_inside(problem, path.legs().iter().map(|leg| leg.motion()))?;
     Ok(path.clone())
+}
+
+/// Checks that the motions of a path keep within the bounds of a problem's scene.
+fn keeps_inside<'a, R: Robot, M: Motion<Configuration = R::Configuration> + 'a>(
+    problem: &Problem<R>,
+    mut motions: impl Iterator<Item = &'a M>,
+) -> Result<(), PathError> {
+    let (robot, bounds) = (problem.checker().robot(), problem.checker().scene().bounds());
+    match motions.position(|motion| !stays_within(robot, motion, &bounds)) {
+        Some(leg) => Err(PathError::Outside(leg)),
+        None => Ok(()),
+    }
 }
 
 /// The planner's path, if it stands the check of [`solve_unproven`].
 ///
 /// # Errors
-/// [`PathError`]: there is none, it leads elsewhere, or the checker does not call it free.
+/// [`PathError`]: there is none, it leads elsewhere, it leaves the scene's bounds, or the checker does not call it free.
 pub fn called_free<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &(impl Planner<R, M> + ?Sized),
 ) -> Result<UnprovenPath<M>, PathError> {
@@ -172,5 +181,6 @@ pub fn called_free<R: Robot, M: Motion<Configuration = R::Configuration> + Clone
     if !is_same(&path.start(), &problem.start()) || !problem.is_goal(&path.goal()) {
         return Err(PathError::OtherEnds);
     }
+    keeps_inside(problem, path.motions().iter())?;
     Ok(path)
 }

@@ -57,4 +57,4 @@ pub use motion::{Leaving, Motion, Rates};
 pub use reach::{JointPoints, Reach, ReachError};
 pub use robot::{CHANNEL_UNITS, ChartLine, ConfigurationError, Drivable, PartRates, PointJacobian, Robot, TICK};
 pub use rusty::{EncoderCounts, RUSTY, Rusty, RustyArc, RustyCmd, RustyDisc, WheelSlip, WheelTurns};
-pub(crate) use within::{stays_within, to_sides};
+pub(crate) use within::{nearest_side, stays_within, to_sides};

@@ -1,7 +1,7 @@
 //! One rule for all planners: paths lie within the world's bounds.
 
 use motion_lab_core::configuration::Configuration;
-use motion_lab_core::planning::{CellDecomposition, Growth, PathError, Search, accepted};
+use motion_lab_core::planning::{CellDecomposition, Growth, PathError, Search, accepted, called_free};
 use motion_lab_core::robots::AnyRobot;
 
 use super::*;
@@ -90,6 +90,15 @@ fn a_path_that_leaves_the_world_is_not_accepted() {
     assert_eq!(planner.step(), Progress::Solved, "its path is free");
     assert_eq!(accepted(&planner).unwrap_err(), PathError::Outside(0));
     assert!(matches!(solve(&mut planner, &Bounds::default()), Err(NoPath::Refused(PathError::Outside(0)))));
+    // nor is one that is only called free
+    assert_eq!(called_free(&planner).unwrap_err(), PathError::Outside(0));
+}
+
+#[test]
+fn a_potential_field_gets_where_nothing_is_in_its_way() {
+    let problem = Problem::try_new(room(&[]), R2::new(-1.0, -1.0), R2::new(1.0, -1.0), Seed(1)).unwrap();
+    let path = solve(&mut PotentialField::new(problem), &Bounds::of_iterations(3000)).unwrap();
+    assert!(path.corners().iter().all(is_inside));
 }
 
 #[test]

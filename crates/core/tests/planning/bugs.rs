@@ -75,16 +75,15 @@ fn bugs_find_a_way_wherever_there_is_one_for_the_clearance_that_they_keep() {
     let (mut ways, mut rounds) = (0, 0);
     for seed in 0..count_from_env(PLANS, 60) {
         let problem = clutter(seed);
+        let bug1 = solve(&mut Bug1::try_new(&problem).unwrap(), &Bounds::default());
+        let bug2 = solve(&mut Bug2::try_new(&problem).unwrap(), &Bounds::default());
+        assert!(bug2.is_ok() || bug1.is_err(), "seed {seed}: bug1 finds a way, and bug2 none");
         if !has_way(&problem) {
             continue;
         }
         ways += 1;
-        for mut planner in [
-            Box::new(Bug1::try_new(&problem).unwrap()) as Box<dyn Planner<RustyDisc>>,
-            Box::new(Bug2::try_new(&problem).unwrap()),
-        ] {
-            let path = solve(planner.as_mut(), &Bounds::default());
-            assert!(path.is_ok(), "{} at seed {seed}: {}", planner.name(), path.unwrap_err());
+        for (name, path) in [("bug1", bug1), ("bug2", bug2)] {
+            assert!(path.is_ok(), "{name} at seed {seed}: {}", path.unwrap_err());
         }
         rounds += u32::from(!problem.checker().edge_free(&problem.start(), &problem.goal()));
     }

@@ -4,10 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration, Coordinates};
-use crate::geometry::{Aabb, Point2, Vector2};
+use crate::geometry::{Point2, Vector2};
 use crate::num::{greater, hypot, lesser, sin_cos};
 use crate::planning::{NoPath, Search};
-use crate::robots::{Robot, to_sides};
+use crate::robots::{Robot, nearest_side, to_sides};
 
 /// The first direction that a step along a boundary tries, from the heading: back and to the right, radians.
 const RIGHT: f64 = -0.75 * PI;
@@ -40,18 +40,6 @@ pub(super) struct Walker<R: Robot> {
 /// The distance of two points, metres.
 pub(super) fn apart(a: Point2, b: Point2) -> f64 {
     hypot(a.x - b.x, a.y - b.y)
-}
-
-/// The distance from a place within a box to the nearest of its sides, and the unit vector to that; of equally near
-/// ones to the left, the right, the lower one.
-fn nearest_side(bounds: &Aabb, p: Point2) -> (f64, Vector2) {
-    let sides = [
-        (p.x - bounds.min.x, -Vector2::x()),
-        (bounds.max.x - p.x, Vector2::x()),
-        (p.y - bounds.min.y, -Vector2::y()),
-        (bounds.max.y - p.y, Vector2::y()),
-    ];
-    sides.into_iter().fold((f64::INFINITY, Vector2::x()), |least, side| if side.0 < least.0 { side } else { least })
 }
 
 /// The result of a step toward the goal.
