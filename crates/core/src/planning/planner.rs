@@ -167,7 +167,7 @@ fn keeps_inside<'a, R: Robot, M: Motion<Configuration = R::Configuration> + 'a>(
 /// The planner's path, if it stands the check of [`solve_unproven`].
 ///
 /// # Errors
-/// [`PathError`]: there is none, it leads elsewhere, it leaves the scene's bounds, or the checker does not call it free.
+/// [`PathError`]: there is none, it leads elsewhere, it leaves the scene's bounds, or the checker calls it not free.
 pub fn called_free<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 'static>(
     planner: &(impl Planner<R, M> + ?Sized),
 ) -> Result<UnprovenPath<M>, PathError> {

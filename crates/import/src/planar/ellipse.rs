@@ -50,9 +50,9 @@ impl EllipticArc {
     }
 }
 
-/// The arc of an SVG path between two points: with these half-axes, turned by an angle in degrees, the large one or not, in
-/// the direction of growing angles or not. Half-axes that are too short are lengthened. `None` if the arc is a straight
-/// line or nothing.
+/// The arc of an SVG path between two points: with these half-axes, turned by an angle in degrees, the large one or
+/// not, in the direction of growing angles or not. Half-axes that are too short are lengthened. `None` if the arc is a
+/// straight line or nothing.
 pub(crate) fn arc_between(ends: [Point2; 2], radii: Vector2, turn: f64, flags: [bool; 2]) -> Option<EllipticArc> {
     let [start, end] = ends;
     let (rx, ry) = (radii.x.abs(), radii.y.abs());

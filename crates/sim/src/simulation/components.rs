@@ -1,6 +1,7 @@
 //! The components of worlds, obstacles, robots and sensors.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use bevy::prelude::*;
 
@@ -28,11 +29,20 @@ pub struct SimulatedWorld {
 #[component(immutable)]
 pub struct WorldScene(pub Arc<Scene>);
 
-/// The revision of a world's scene. A scene that differs has another revision; whatever is kept of a scene from tick to
-/// tick is kept with it.
+/// The revision of a world's scene. Each scene that is made has one of its own; whatever is kept of a scene from tick
+/// to tick is kept with it.
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq)]
 #[component(immutable)]
-pub struct SceneRevision(pub u64);
+pub struct SceneRevision(u64);
+
+impl SceneRevision {
+    /// A revision that no other scene of the process has, so that what is kept of another run's scene is none of this
+    /// one. A run does not depend on its number.
+    pub(crate) fn new() -> Self {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        SceneRevision(NEXT.fetch_add(1, Ordering::Relaxed))
+    }
+}
 
 /// The world as it stands now: its obstacles where they are, and its doors open or closed.
 #[derive(Component, Clone, Debug)]

@@ -8,8 +8,10 @@ use super::obstacles::roster::ObstacleRoster;
 use super::schedule::{CrowdSystems, TickPhase, simulation_schedule};
 use super::tick::world_crowds::WorldCrowds;
 use super::tick::{input, sense, world_crowds};
+use super::truth::thing::RunThing;
+use super::truth::touched::AtStart::{Followed, PutBack};
 use super::truth::touched::ForeignTouches;
-use super::truth::watch::watch_components;
+use super::truth::watch::{watch as watch_unnamed, watch_components};
 use super::{
     CommandRefused, Door, Keyframes, LatestFrame, MountedOn, ObstacleOf, ObstacleShape, PendingInput, Placement,
     Playback, Refusals, ResidesIn, RobotId, RobotKinds, RobotName, RobotOps, RobotPlugin, RunCommand, Scan,
@@ -77,10 +79,13 @@ impl Plugin for SimulationPlugin {
 
 /// Watches the components of the run's entities that all robots have alike.
 fn watch(world: &mut World) {
-    watch_components!(world, SimulatedWorld, WorldScene, SceneRevision, StandingWorld);
-    watch_components!(world, ObstacleShape, Placement, Door, ObstacleOf);
-    watch_components!(world, RobotId, RobotName, ResidesIn, RobotOps, Slip);
-    watch_components!(world, SensorModel, SensorName, SensorMount, SensorNoise, MountedOn, Scan);
+    watch_components!(world, PutBack, SimulatedWorld, WorldScene, SceneRevision, StandingWorld);
+    watch_components!(world, Followed, ObstacleShape, Placement, Door, ObstacleOf);
+    watch_components!(world, Followed, RobotName, ResidesIn);
+    watch_components!(world, PutBack, RobotId, RobotOps, Slip, Scan);
+    watch_components!(world, Followed, SensorModel, SensorName, SensorMount, SensorNoise, MountedOn);
+    let thing = world.register_component::<RunThing>();
+    watch_unnamed(world, &[thing]);
 }
 
 /// An app without a window: Bevy's `MinimalPlugins` and the [`SimulationPlugin`]. Everything else is yours to add:

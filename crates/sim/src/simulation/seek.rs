@@ -3,6 +3,7 @@
 use bevy::prelude::*;
 
 use super::obstacles::change::RefusedChanges;
+use super::obstacles::dress::show;
 use super::robot::contact;
 use super::truth::leave_start;
 use super::truth::settle;
@@ -15,13 +16,22 @@ use crate::run::Frame;
 /// [`ContactBegan`](super::ContactBegan) and [`ContactEnded`](super::ContactEnded).
 pub fn step(world: &mut World) {
     settle(world);
-    contact::with_events(world, advance);
+    contact::with_events(world, advance_and_show);
 }
 
 /// [`step`] of a world that nobody but the simulation has had in hand since the last tick: its values need no look.
 /// Where somebody observes contacts, or the run stands at tick 0, others may have had it, and it is a step.
 pub(crate) fn step_alone(world: &mut World) {
-    if world.resource::<Transport>().tick == 0 || contact::are_observed(world) { step(world) } else { advance(world) }
+    if world.resource::<Transport>().tick == 0 || contact::are_observed(world) {
+        step(world)
+    } else {
+        advance_and_show(world)
+    }
+}
+
+fn advance_and_show(world: &mut World) {
+    advance(world);
+    show(world);
 }
 
 /// Runs one tick and triggers nothing.
@@ -42,11 +52,12 @@ pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     let now = world.resource::<Transport>().tick;
     let keyframe = world.resource::<Keyframes>().before(tick).filter(|f| tick < now || f.tick > now);
     if let Some(frame) = keyframe.cloned() {
-        restore(world, &frame)?;
+        at_work(world, |world| put_frame(world, &frame))?;
     }
     while world.resource::<Transport>().tick < tick {
         advance(world);
     }
+    show(world);
     // those on the way there were reported when they were first refused
     world.resource_mut::<RefusedChanges>().0.clear();
     Ok(())
@@ -67,7 +78,9 @@ pub fn extend_frontier(world: &mut World, tick: u64) {
 /// all the same.
 pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
     settle(world);
-    at_work(world, |world| put_frame(world, frame))
+    at_work(world, |world| put_frame(world, frame))?;
+    show(world);
+    Ok(())
 }
 
 /// Runs the next tick of a run that plays. A looping run at its frontier begins again at tick 0.

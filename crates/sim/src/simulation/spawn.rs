@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::obstacles::roster::{self, WorldObstacles};
+use super::obstacles::roster::{ObstacleRoster, WorldObstacles, sync_added};
 use super::robot::spawn::{RobotEntities, spawn_robots};
 use super::tick::world_crowds::WorldCrowds;
 use super::truth::run_config::RunConfig;
 use super::truth::thing::RunThing;
 use super::truth::touched::{ForeignTouches, at_work};
+use super::truth::watch::are_observers_of_others;
 use super::{
     History, Keyframes, LatestFrame, PendingInput, Refusals, Roster, SceneRevision, SimulatedWorld, SpawnError,
     StandingWorld, Transport, WorldScene, sensors, state, tick,
@@ -33,10 +34,11 @@ pub fn is_under_way(world: &World, recipe: &Recipe) -> bool {
         && *world.resource::<PendingInput>().script() == recipe.script
 }
 
-fn spawn_world(world: &mut World, index: usize, model: &WorldModel) -> Entity {
-    let (scene, model) = (WorldScene(Arc::new(Scene::of_world(model))), Arc::new(model.clone()));
-    let at = SimulatedWorld { index: index as u32, model: Arc::clone(&model) };
-    world.spawn((at, StandingWorld(model), scene, SceneRevision(0), RunThing::World(index))).id()
+fn spawn_world(world: &mut World, index: usize, model: &Arc<WorldModel>) -> Entity {
+    let scene = WorldScene(Arc::new(Scene::of_world(model)));
+    let at = SimulatedWorld { index: index as u32, model: Arc::clone(model) };
+    let standing = StandingWorld(Arc::clone(model));
+    world.spawn((at, standing, scene, SceneRevision::new(), RunThing::World(index))).id()
 }
 
 /// Starts a run in `world`, in place of the one under way: spawns everything and takes frame 0. The new run is paused.
@@ -71,7 +73,8 @@ fn begin(world: &mut World, recipe: Recipe, order: &[usize]) -> Result<(), Spawn
     script.check()?;
     script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
     script.check_worlds(&config.worlds)?;
-    let worlds: Vec<Entity> = config.worlds.iter().enumerate().map(|(i, model)| spawn_world(world, i, model)).collect();
+    let models: Vec<Arc<WorldModel>> = config.worlds.iter().map(|model| Arc::new(model.clone())).collect();
+    let worlds: Vec<Entity> = models.iter().enumerate().map(|(i, model)| spawn_world(world, i, model)).collect();
     let spawned = spawn_robots(world, (&config, seed), (&worlds, &RobotEntities::none(&config)), order);
     let robots = spawned.inspect_err(|_| worlds.iter().for_each(|&w| _ = world.despawn(w)))?;
     let names = config.robot_names().map(str::to_owned).zip(robots.iter().copied()).collect();
@@ -80,16 +83,19 @@ fn begin(world: &mut World, recipe: Recipe, order: &[usize]) -> Result<(), Spawn
         world.despawn(w);
     }
     let mut grounds = Vec::new();
-    for (number, &w) in roster.worlds.iter().enumerate() {
-        let start = world.get::<SimulatedWorld>(w).map(|w| Arc::clone(&w.model));
-        let mut ground = start.map(|start| WorldObstacles::new(w, number, start, &[]));
-        ground.iter_mut().for_each(|ground| ground.dress_all(world));
-        grounds.extend(ground.map(WorldObstacles::fresh));
+    for (number, (&w, start)) in roster.worlds.iter().zip(models).enumerate() {
+        let mut ground = WorldObstacles::new(w, number, start, &[]);
+        ground.dress_all(world);
+        grounds.push(ground.fresh());
     }
     world.insert_resource(roster);
-    world.resource_mut::<ForeignTouches>().entities.clear();
-    roster::begin(world, grounds);
-    roster::sync_added(world, &script.changes);
+    world.insert_resource(ObstacleRoster { grounds });
+    // observers of others may have answered what was spawned; what they changed is not told from the start's own work
+    let is_unsettled = are_observers_of_others(world);
+    let mut touched = world.resource_mut::<ForeignTouches>();
+    touched.entities.clear();
+    touched.is_unsettled |= is_unsettled;
+    sync_added(world, &script.changes);
     world.insert_resource(WorldCrowds::new(config.worlds.iter().map(|w| w.robots.len())));
     world.insert_resource(RunConfig(config));
     world.insert_resource(Transport::new(seed));

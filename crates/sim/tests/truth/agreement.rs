@@ -134,13 +134,24 @@ fn obstacles(world: &mut Ecs, w: usize, entity: Entity) {
     assert!(found.is_empty() || frame.tick == 0, "beside the run's: {found:?}");
     // the scene is that of the standing world
     let standing = &world.get::<StandingWorld>(entity).unwrap().0;
-    let present = expected.iter().filter(|(_, _, placement)| placement.present).count();
-    let open = standing.doors.iter().filter(|door| door.open).count();
-    assert_eq!(standing.obstacles.len() + standing.doors.len() - open, present);
+    let there = expected.iter().filter(|(_, is_door, placement)| placement.present && !is_door);
+    let moved: Vec<Obstacle> = there.map(|(obstacle, _, placement)| at(obstacle, &placement.pose)).collect();
+    assert_eq!(standing.obstacles, moved);
+    let closed = expected.iter().filter(|(_, is_door, _)| *is_door).map(|(_, _, placement)| placement.present);
+    assert!(standing.doors.iter().map(|door| !door.open).eq(closed));
     let scene = &world.get::<WorldScene>(entity).unwrap().0;
     let made = motion_lab_core::collision::Scene::of_world(standing);
     let probe = Footprint::disc(Point2::new(0.3, 0.4), 0.05);
     assert_eq!(scene.distance(&probe).to_bits(), made.distance(&probe).to_bits());
+}
+
+/// An obstacle after a rigid motion.
+fn at(obstacle: &Obstacle, pose: &Pose2) -> Obstacle {
+    if *pose == Pose2::IDENTITY {
+        return obstacle.clone();
+    }
+    let pieces = obstacle.pieces.iter().map(|(frame, shape)| (pose.compose(frame), shape.clone())).collect();
+    Obstacle::new(&obstacle.name, obstacle.kind, pieces)
 }
 
 /// Checks the sensors that the run has.

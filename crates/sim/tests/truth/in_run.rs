@@ -4,11 +4,11 @@ use bevy::prelude::{Entity, Query, Update, With};
 use motion_lab_core::collision::Scene;
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{RUSTY, Rusty};
-use motion_lab_core::worlds::ObstacleKind;
+use motion_lab_core::worlds::{Obstacle, ObstacleKind};
 use motion_lab_sim::simulation::{
     Configuration, Contacts, Control, Cut, Door, DrawnTour, DriveMode, MountedOn, ObstacleOf, ObstacleShape, OwnState,
-    Placement, PreviousConfiguration, Refusals, ResidesIn, RobotId, RobotModel, Scan, SensorModel, SensorMount,
-    SensorName, SensorRoster, Slip, TickMotion, TransportCommand, WorldScene,
+    Placement, PreviousConfiguration, Refusals, ResidesIn, RobotId, RobotModel, RobotName, RobotOps, Scan, SensorModel,
+    SensorMount, SensorName, SensorRoster, Sensors, Slip, TickMotion, TransportCommand, WorldScene,
 };
 
 use super::start::find_obstacle;
@@ -129,19 +129,82 @@ fn values(world: &Ecs, e: Entity) -> Values<'_> {
 #[test]
 fn a_negative_zero_is_put_back_too() {
     let mut app = app();
+    // a rover that stands where it started
+    drive(&mut app, "A", (0, 0));
     steps(app.world_mut(), 3);
-    let before = frame(app.world());
-    let c = robot(app.world(), "C");
-    // the car's tour begins straight ahead
-    let y = &mut app.world_mut().get_mut::<Configuration<motion_lab_core::robots::Hitch>>(c).unwrap().0;
-    if y.body.theta == 0.0 {
-        y.body.theta = -0.0;
-    }
+    let (a, before) = (a(app.world()), frame(app.world()));
+    let q = &mut app.world_mut().get_mut::<Configuration<Rusty>>(a).unwrap().0;
+    assert_eq!((q.x.to_bits(), q.theta.to_bits()), (0, 0));
+    (q.x, q.theta) = (-0.0, -0.0);
     motion_lab_sim::simulation::settle(app.world_mut());
     assert_agrees(app.world_mut());
     assert_eq!(frame(app.world()).digest(), before.digest());
     steps(app.world_mut(), 20);
     assert_recorded(app.world());
+}
+
+#[test]
+fn what_is_kept_of_another_run_changes_no_bit() {
+    let at = |x| vec![(Pose2::new(x, 0.0, 0.0), Shape::Disc { radius: 0.1 })];
+    let mut walled = config();
+    walled.worlds[0].robots.truncate(1);
+    let free = walled.clone();
+    walled.worlds[0].obstacles.push(Obstacle::new("near", ObstacleKind::Solid, at(0.6)));
+    let begin = |app: &mut App, config: &TourConfig| {
+        start_run(app.world_mut(), config.clone(), Seed(7)).unwrap();
+        drive(app, "A", (128, 0));
+    };
+    let mut app = app();
+    begin(&mut app, &walled);
+    while frame(app.world()).robots[0].contacts == 0 {
+        assert!(frame(app.world()).tick < 40);
+        step(app.world_mut());
+    }
+    let tick = frame(app.world()).tick;
+    let held = *app.world().get::<Cut<Rusty>>(a(app.world())).unwrap();
+    // the same motion from the same place, with nothing in its way
+    begin(&mut app, &free);
+    steps(app.world_mut(), tick - 1);
+    let a = a(app.world());
+    *app.world_mut().get_mut::<Cut<Rusty>>(a).unwrap() = held;
+    step(app.world_mut());
+    assert_eq!(frame(app.world()).robots[0].contacts, 0);
+    assert_recorded(app.world());
+}
+
+/// The parts of a rover that others can name.
+type Nameable = (
+    (RobotModel<Rusty>, Configuration<Rusty>, PreviousConfiguration<Rusty>, Control<Rusty>, Contacts<Rusty>),
+    (DriveMode<Rusty>, OwnState<Rusty>, DrawnTour<Rusty>, TickMotion<Rusty>, Cut<Rusty>, Slip),
+    (RobotId, RobotName, ResidesIn, RobotOps, Sensors),
+);
+
+/// The entities of a run are known and compared by components that nobody else can name; but they can be removed.
+#[test]
+fn an_entity_that_loses_what_only_the_simulation_can_name_is_still_the_runs() {
+    let lose = |world: &mut Ecs| {
+        let a = a(world);
+        let mut rover = world.entity_mut(a);
+        rover.retain::<Nameable>();
+        a
+    };
+    assert_eq!(refusals_of(|world| _ = lose(world)), [""; 0]);
+    let said = refusals_of(|world| {
+        let a = lose(world);
+        world.despawn(a);
+    });
+    assert!(said[0].starts_with("robot \"A\" (entity "), "{said:?}");
+    let mut app = app();
+    lose(app.world_mut());
+    steps(app.world_mut(), 5);
+    assert_agrees(app.world_mut());
+    assert_recorded(app.world());
+    assert_eq!(robot(app.world(), "B"), app.world().resource::<Roster>().robots()[1]);
+    let said = refusals_of(|world| {
+        let a = a(world);
+        world.entity_mut(a).retain::<(RobotModel<Rusty>, Configuration<Rusty>, RobotName, ResidesIn)>();
+    });
+    assert!(said.len() > 5, "{said:?}");
 }
 
 #[test]

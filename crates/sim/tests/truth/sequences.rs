@@ -36,7 +36,12 @@ fn any<C: Component>(world: &mut Ecs, draws: &mut Stream) -> Option<Entity> {
 fn write<R: SimulatedRobot>(world: &mut Ecs, draws: &mut Stream) {
     let Some(e) = any::<RobotModel<R>>(world, draws) else { return };
     let mut robot = world.entity_mut(e);
-    match draws.below(6) {
+    match draws.below(7) {
+        6 => {
+            if let Some(mut cut) = robot.get_mut::<Cut<R>>() {
+                *cut = Cut::default();
+            }
+        }
         0 => {
             if let Some(mut q) = robot.get_mut::<Configuration<R>>() {
                 let moved: Vec<f64> = q.0.coordinates().iter().map(|x| x + 0.125).collect();
@@ -121,7 +126,9 @@ fn change_robot(world: &mut Ecs, draws: &mut Stream) {
         }
         _ => {
             let q = Configuration::<Rusty>(Pose2::new(draws.uniform(-3.0, 3.0), draws.uniform(-3.0, 3.0), 0.5));
-            let robot = (RobotModel(RUSTY), q, named(name, "rusty"));
+            let channels = [draws.below(300) as i16 - 150, 3];
+            let mode = DriveMode::<Rusty> { manual: draws.below(2) == 0, channels, target: None, refusals: 0 };
+            let robot = (RobotModel(RUSTY), q, mode, named(name, "rusty"));
             match home {
                 Some(home) if draws.below(4) > 0 => _ = world.spawn((robot, ResidesIn(home))),
                 _ => _ = world.spawn(robot),
@@ -148,7 +155,9 @@ fn change_thing(world: &mut Ecs, draws: &mut Stream) {
             change(&mut world.entity_mut(entity));
         }
     };
-    match draws.below(18) {
+    match draws.below(20) {
+        18 => of(world, home, &|e| _ = e.remove::<SimulatedWorld>()),
+        19 => of(world, one(draws, &[home, obstacle, sensor, robot]), &|e| _ = e.clear()),
         0 => of(world, obstacle, &|e| _ = e.insert(Placement { present: true, pose })),
         1 => of(world, obstacle, &|e| _ = e.insert(Placement { present: false, pose })),
         2 => of(world, obstacle, &|e| _ = e.insert(shape.clone())),

@@ -9,7 +9,7 @@ use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
 use motion_lab_sim::simulation::{
     Configuration, DriveMode, ObstacleOf, OwnState, PendingInput, ResidesIn, RobotModel, RobotName, RunConfig,
-    SensorModel, SensorName, Slip, TransportCommand, settle,
+    SensorModel, SensorName, SimulatedWorld, Slip, TransportCommand, settle,
 };
 
 use super::*;
@@ -129,6 +129,136 @@ fn a_drive_mode_becomes_the_first_input() {
     assert!(refused(world).is_empty());
 }
 
+fn driven(channels: [i16; 2]) -> DriveMode<Rusty> {
+    DriveMode { manual: true, channels, target: None, refusals: 0 }
+}
+
+#[test]
+fn a_drive_mode_is_that_of_its_entity_whatever_its_name_becomes() {
+    let mut app = app();
+    let (a, b) = (robot(app.world(), "A"), robot(app.world(), "B"));
+    let world = app.world_mut();
+    // it can't be named so, and stays "A"
+    world.entity_mut(a).insert((named("B", "rusty"), driven([128, 5])));
+    settle(world);
+    let drives = |world: &Ecs| {
+        let events = &world.resource::<PendingInput>().script().events;
+        events.iter().map(|event| (event.tick, event.robot.clone(), event.input.clone())).collect::<Vec<_>>()
+    };
+    assert_eq!(drives(world), [(1, "A".into(), RobotInput::Drive(128, 5))]);
+    // two that change their names are driven by their new ones
+    world.entity_mut(a).insert((named("Ann", "rusty"), driven([1, 2])));
+    world.entity_mut(b).insert((named("A", "rusty"), driven([3, 4])));
+    settle(world);
+    assert_eq!(drives(world), [(1, "Ann".into(), RobotInput::Drive(1, 2)), (1, "A".into(), RobotInput::Drive(3, 4))]);
+    steps(world, 5);
+    assert_recorded(world);
+}
+
+#[test]
+fn a_new_robots_drive_mode_becomes_its_first_input_too() {
+    let mut app = app();
+    let yard = world_entity(app.world(), 0);
+    let rover = |name: &str, x: f64| {
+        let q = Configuration::<Rusty>(Pose2::new(x, -1.0, 0.0));
+        (RobotModel(RUSTY), q, named(name, "rusty"), ResidesIn(yard))
+    };
+    let world = app.world_mut();
+    world.spawn((rover("F", 0.4), driven([-128, 9])));
+    world.spawn((rover("E", -0.4), DriveMode::<Rusty> { refusals: 2, ..driven([7, 7]) }));
+    settle(world);
+    let expected = [Event { tick: 1, robot: "F".into(), input: RobotInput::Drive(-128, 9) }];
+    assert_eq!(world.resource::<PendingInput>().script().events, expected);
+    let said = refused(world);
+    assert!(
+        said.len() == 1 && said[0].starts_with("robot \"E\" (") && said[0].contains("DriveMode<Rusty> was changed"),
+        "{said:?}"
+    );
+    step(world);
+    assert_eq!(frame(world).robots[4].channels, [-128, 9], "E comes first");
+    assert_recorded(world);
+}
+
+#[test]
+fn the_last_drive_mode_that_is_written_holds_and_the_script_does_not_grow() {
+    let mut app = app();
+    let quantized = |x: f64| motion_lab_sim::run::Quantized::try_new(x).unwrap();
+    let event = |robot: &str, input| Event { tick: 1, robot: robot.into(), input };
+    let to = RobotInput::Teleport(vec![quantized(-0.5), quantized(-1.0), quantized(0.0)]);
+    let before = [RobotInput::Drive(1, 1), to.clone(), RobotInput::Release].map(|input| event("A", input));
+    let later = Event { tick: 3, ..event("A", RobotInput::Drive(9, 9)) };
+    let others = event("B", RobotInput::Drive(2, 2));
+    let script = [&before[..], &[others.clone(), later.clone()]].concat();
+    start_run(app.world_mut(), config(), (Seed(7), Script::new(script, vec![]))).unwrap();
+    let (a, d) = (robot(app.world(), "A"), robot(app.world(), "D"));
+    let world = app.world_mut();
+    for speed in [100, 110, 120] {
+        *world.get_mut::<DriveMode<Rusty>>(a).unwrap() = driven([speed, 0]);
+        let target = Some(T2::new(0.75, f64::from(speed) / 200.0));
+        *world.get_mut::<DriveMode<Reach<2>>>(d).unwrap() =
+            DriveMode { manual: true, channels: [0; 2], target, refusals: 0 };
+        settle(world);
+    }
+    let drive = event("A", RobotInput::Drive(120, 0));
+    let aim = event("D", RobotInput::MoveTo(vec![quantized(0.75), quantized(0.6)]));
+    assert_eq!(world.resource::<PendingInput>().script().events, [event("A", to), others, drive, aim, later]);
+    step(world);
+    assert_eq!((frame(world).robots[0].channels, frame(world).robots[0].manual), ([120, 0], true));
+    assert_recorded(world);
+    assert!(refused(world).is_empty());
+    // a rover goes nowhere by itself, and an arm has no channels
+    send(&mut app, TransportCommand::Seek(0));
+    let world = app.world_mut();
+    *world.get_mut::<DriveMode<Rusty>>(a).unwrap() =
+        DriveMode { target: Some(Pose2::new(1.0, 1.0, 0.0)), ..driven([0, 0]) };
+    *world.get_mut::<DriveMode<Reach<2>>>(d).unwrap() =
+        DriveMode { manual: true, channels: [5, 0], target: None, refusals: 0 };
+    settle(world);
+    assert_eq!(refused(world).len(), 2);
+    assert_eq!(world.resource::<PendingInput>().script().events.len(), 5);
+}
+
+#[test]
+fn readings_and_zeros_that_are_written_in_place_are_put_back_at_tick_0_too() {
+    use motion_lab_sim::simulation::{Scan, SensorRoster};
+    let mut app = app();
+    let (b, before) = (robot(app.world(), "B"), frame(app.world()));
+    let sensor = app.world().resource::<SensorRoster>().entities().next().unwrap();
+    let world = app.world_mut();
+    *world.get_mut::<Scan>(sensor).unwrap() = Scan::default();
+    let y = &mut world.get_mut::<Configuration<Rusty>>(b).unwrap().0.y;
+    assert_eq!(y.to_bits(), 0.0_f64.to_bits());
+    *y = -0.0;
+    settle(world);
+    assert_agrees(world);
+    assert_eq!(frame(world).digest(), before.digest());
+    let said = refused(world);
+    assert!(said.len() == 1 && said[0].contains("Scan was changed past"), "{said:?}");
+}
+
+#[test]
+fn a_world_that_is_changed_at_tick_0_keeps_what_is_in_it() {
+    type Change = fn(&mut bevy::prelude::EntityWorldMut);
+    let changes: [Change; 3] = [
+        |world| _ = world.remove::<SimulatedWorld>(),
+        |world| {
+            let model = world.get::<SimulatedWorld>().unwrap().model.clone();
+            world.insert(SimulatedWorld { index: 1, model });
+        },
+        |world| _ = world.clear(),
+    ];
+    for change in changes {
+        let mut app = app();
+        let (yard, a) = (world_entity(app.world(), 0), robot(app.world(), "A"));
+        change(&mut app.world_mut().entity_mut(yard));
+        assert_runs_as(&mut app, &config());
+        assert_eq!((world_entity(app.world(), 0), robot(app.world(), "A")), (yard, a), "by the same entities");
+        let said = refused(app.world_mut());
+        assert!(said.iter().all(|text| text.starts_with("world \"yard\" (entity ")), "{said:?}");
+        assert!(said.iter().any(|text| text.contains("): SimulatedWorld was changed past")), "{said:?}");
+    }
+}
+
 #[test]
 fn what_no_run_could_have_is_left_out_or_stays_as_it_was_and_says_so() {
     let mut app = app();
@@ -162,6 +292,8 @@ fn what_no_run_could_have_is_left_out_or_stays_as_it_was_and_says_so() {
             "robot \"A\" is left out: its name is taken",
             "robot \"A\" stays as it was: robot \"A\" in world \"yard\": [NaN, 0.0, 0.0] is no configuration of a rusty",
             "robot \"B\" stays as it was: its model differs from that of its kind in more than its sizes",
+            "robot \"C\": OwnState<Hitch> was changed past the run's commands, and is put back",
+            "robot \"C\": Slip was changed past the run's commands, and is put back",
             "robot \"car\" is left out: robots of its type are of no kind \"hitch\"",
             "robot \"nowhere\" is left out: it has no configuration of its model's type",
             "robot \"post\" is left out: its name is taken",

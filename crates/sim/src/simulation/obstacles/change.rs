@@ -68,7 +68,7 @@ pub(crate) fn make(world: &mut World, events: &[WorldEvent]) {
             if let Some(ground) = number.and_then(|w| roster.grounds.get_mut(w))
                 && let Some((number, placement)) = wanted(ground, &event.change)
             {
-                place(world, ground, number, placement);
+                place(ground, number, placement);
             }
             refresh(world, roster);
         });

@@ -1,5 +1,6 @@
 //! The obstacles and doors of a run: entities, their state, and the scenes that follow from them.
 
 pub(crate) mod change;
+pub(crate) mod dress;
 pub(crate) mod roster;
 pub(crate) mod start;

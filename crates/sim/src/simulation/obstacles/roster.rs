@@ -8,10 +8,9 @@ use bevy::prelude::*;
 
 use crate::run::{ObstacleState, WorldChange, WorldEvent};
 use crate::simulation::truth::thing::RunThing;
-use crate::simulation::truth::touched::{ForeignTouches, at_work};
+use crate::simulation::truth::touched::at_work;
 use crate::simulation::{
-    Door, ObstacleOf, ObstacleShape, Obstacles, Placement, RestoreError, Roster, SceneRevision, SimulatedWorld,
-    StandingWorld, WorldScene,
+    Door, ObstacleOf, ObstacleShape, Placement, RestoreError, SceneRevision, SimulatedWorld, StandingWorld, WorldScene,
 };
 use motion_lab_core::collision::Scene;
 use motion_lab_core::geometry::Pose2;
@@ -28,49 +27,42 @@ enum ShapeSource {
 }
 
 #[derive(Debug)]
-struct RosterEntry {
-    entity: Entity,
+pub(super) struct RosterEntry {
+    pub(super) entity: Entity,
     source: ShapeSource,
     at_first: Placement,
-    now: Placement,
+    pub(super) now: Placement,
 }
 
 /// The obstacles of one world of the run.
 #[derive(Debug)]
 pub(crate) struct WorldObstacles {
-    entity: Entity,
+    pub(super) entity: Entity,
     /// The world's number.
     number: usize,
     /// The world at the start of the run.
-    start: Arc<WorldModel>,
-    entries: Vec<RosterEntry>,
+    pub(super) start: Arc<WorldModel>,
+    pub(super) entries: Vec<RosterEntry>,
     numbers: BTreeMap<String, usize>,
     /// The numbers of the entries that are not as they were at first.
     changed: BTreeSet<usize>,
+    /// The numbers of the entries whose entities are yet to be given their placements.
+    pub(super) unshown: BTreeSet<usize>,
     /// Whether the scene is older than the placements.
-    is_stale: bool,
+    pub(super) is_stale: bool,
 }
 
 /// The obstacles and doors of the run, by world and number. It decides what robots meet. The entities carry the same.
 #[derive(Resource, Default, Debug)]
 pub struct ObstacleRoster {
     pub(crate) grounds: Vec<WorldObstacles>,
-    /// The number of the next scene's revision; it never comes back in one app.
-    next_revision: u64,
 }
 
 impl WorldObstacles {
-    /// Whether the world's entities are the ground's own, each where it is by the ground.
-    fn is_as_spawned(&self, world: &World) -> bool {
-        let there = world.get::<Obstacles>(self.entity()).map_or(0, |obstacles| obstacles.len());
-        let is_placed = |(number, entity)| world.get::<Placement>(entity).copied() == self.placement(number);
-        there == self.entities().count() && self.entities().enumerate().all(is_placed)
-    }
-
     /// The ground of a world whose obstacles and doors have these entities, in their order.
     /// [`dress_all`](Self::dress_all) spawns those that are missing or `None`.
     pub(crate) fn new(entity: Entity, number: usize, start: Arc<WorldModel>, entities: &[Option<Entity>]) -> Self {
-        let (changed, numbers) = (BTreeSet::new(), BTreeMap::new());
+        let (changed, unshown, numbers) = (BTreeSet::new(), BTreeSet::new(), BTreeMap::new());
         let mut ground = WorldObstacles {
             entity,
             number,
@@ -78,6 +70,7 @@ impl WorldObstacles {
             entries: vec![],
             numbers,
             changed,
+            unshown,
             is_stale: true,
         };
         let obstacles = start.obstacles.iter().enumerate().map(|(i, o)| (&o.name, ShapeSource::File(i), true));
@@ -101,20 +94,25 @@ impl WorldObstacles {
     }
 
     /// Gives an obstacle the components that the run has for it, on an entity of its own if it has none.
-    fn dress(&mut self, world: &mut World, number: usize) {
+    pub(super) fn dress(&mut self, world: &mut World, number: usize) {
         let at = (RunThing::Obstacle(self.number, number), ObstacleOf(self.entity));
         let Some(shape) = self.obstacle(number).map(|obstacle| shape_of(&obstacle)) else { return };
         let entry = &mut self.entries[number];
         if world.get_entity(entry.entity).is_err() {
             entry.entity = world.spawn_empty().id();
         }
-        let mut entity = world.entity_mut(entry.entity);
-        entity.insert((shape, entry.now, at));
-        if matches!(entry.source, ShapeSource::Door(_)) {
-            entity.insert(Door)
-        } else {
-            entity.remove::<Door>()
-        };
+        let (entity, now, is_door) = (entry.entity, entry.now, matches!(entry.source, ShapeSource::Door(_)));
+        if let Ok(mut entity) = world.get_entity_mut(entity) {
+            entity.insert((shape, now, at));
+        }
+        // looked up anew, for an observer may despawn what it sees
+        if let Ok(mut entity) = world.get_entity_mut(entity) {
+            if is_door {
+                entity.insert(Door)
+            } else {
+                entity.remove::<Door>()
+            };
+        }
     }
 
     fn push(&mut self, name: &str, entity: Entity, source: ShapeSource, at_first: Placement) {
@@ -229,40 +227,8 @@ pub(crate) fn with_roster<T>(world: &mut World, work: impl FnOnce(&mut World, &m
     })
 }
 
-/// Gives a world of the run its components and its scene anew, on an entity of its own if it has lost it.
-pub(crate) fn dress_world(world: &mut World, number: usize) {
-    with_roster(world, |world, roster| {
-        let Some(ground) = roster.grounds.get_mut(number) else { return };
-        if world.get_entity(ground.entity).is_err() {
-            ground.entity = world.spawn_empty().id();
-            world.resource_mut::<Roster>().worlds[number] = ground.entity;
-        }
-        let model = Arc::clone(&ground.start);
-        let at = SimulatedWorld { index: number as u32, model };
-        world.entity_mut(ground.entity).insert((at, RunThing::World(number)));
-        ground.is_stale = true;
-        refresh(world, roster);
-    });
-}
-
-/// Gives an obstacle of the run its components.
-pub(crate) fn dress_obstacle(world: &mut World, w: usize, number: usize) {
-    with_roster(world, |world, roster| {
-        if let Some(ground) = roster.grounds.get_mut(w) {
-            ground.dress(world, number);
-        }
-    });
-}
-
-/// Takes the components of an obstacle off an entity.
-pub(crate) fn undress(world: &mut World, entity: Entity) {
-    if let Ok(mut entity) = world.get_entity_mut(entity) {
-        entity.remove::<(ObstacleShape, Placement, Door, ObstacleOf, RunThing)>();
-    }
-}
-
-/// Puts an obstacle somewhere. The scene follows with [`refresh`].
-pub(crate) fn place(world: &mut World, ground: &mut WorldObstacles, number: usize, placement: Placement) {
+/// Puts an obstacle somewhere. The scene follows with [`refresh`], its entity with [`show`].
+pub(crate) fn place(ground: &mut WorldObstacles, number: usize, placement: Placement) {
     let Some(entry) = ground.entries.get_mut(number).filter(|e| e.now != placement) else { return };
     entry.now = placement;
     if entry.now == entry.at_first {
@@ -271,20 +237,17 @@ pub(crate) fn place(world: &mut World, ground: &mut WorldObstacles, number: usiz
         ground.changed.insert(number)
     };
     ground.is_stale = true;
-    if let Ok(mut entity) = world.get_entity_mut(entry.entity) {
-        entity.insert(placement);
-    }
+    ground.unshown.insert(number);
 }
 
 /// Gives every world whose obstacles were changed its new scene, under a new revision.
 pub(crate) fn refresh(world: &mut World, roster: &mut ObstacleRoster) {
     for ground in roster.grounds.iter_mut().filter(|ground| ground.is_stale) {
         ground.is_stale = false;
-        roster.next_revision += 1;
         let model = ground.standing();
         let scene = Arc::new(Scene::of_world(&model));
         if let Ok(mut entity) = world.get_entity_mut(ground.entity) {
-            entity.insert((WorldScene(scene), SceneRevision(roster.next_revision), StandingWorld(model)));
+            entity.insert((WorldScene(scene), SceneRevision::new(), StandingWorld(model)));
         }
     }
 }
@@ -340,10 +303,10 @@ pub(crate) fn restore(world: &mut World, tick: u64, states: &[ObstacleState]) ->
             let back: Vec<usize> = ground.changed.iter().copied().filter(|n| !own.contains_key(n)).collect();
             for number in back {
                 let at_first = ground.entries[number].at_first;
-                place(world, ground, number, at_first);
+                place(ground, number, at_first);
             }
             for (number, state) in own {
-                place(world, ground, number, Placement { present: state.present, pose: state.pose });
+                place(ground, number, Placement { present: state.present, pose: state.pose });
             }
         }
         refresh(world, roster);
@@ -375,14 +338,4 @@ pub(crate) fn wanted(ground: &WorldObstacles, change: &WorldChange) -> Option<(u
         WorldChange::Move { .. } => Placement { present: true, pose: change.pose()? },
     };
     Some((number, placement))
-}
-
-/// Begins the roster of a run, in place of the last run's. The worlds' entities are those of the run's [`Roster`].
-pub(crate) fn begin(world: &mut World, grounds: Vec<WorldObstacles>) {
-    let next_revision = world.resource::<ObstacleRoster>().next_revision;
-    debug_assert_eq!(grounds.len(), world.resource::<Roster>().worlds().len());
-    // observers of what the start spawned may have changed it already
-    let is_unsettled = grounds.iter().any(|ground| !ground.is_as_spawned(world));
-    world.insert_resource(ObstacleRoster { grounds, next_revision });
-    world.resource_mut::<ForeignTouches>().is_unsettled |= is_unsettled;
 }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::roster::{WorldObstacles, moved, refresh, undress, with_roster};
+use super::dress::undress;
+use super::roster::{WorldObstacles, moved, refresh, with_roster};
 use crate::simulation::truth::thing::RunThing;
 use crate::simulation::{CommandError, CommandRefused, Door, ObstacleShape, Obstacles, Placement, SimulatedWorld};
 use crate::tour::TourConfig;

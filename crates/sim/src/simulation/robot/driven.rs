@@ -61,6 +61,12 @@ impl<R: SimulatedRobot> InputTarget<R> {
     }
 }
 
+/// Whether a robot that tours at `q` takes all of these inputs, none of which puts it elsewhere.
+pub(crate) fn are_taken<R: SimulatedRobot>(robot: &R, q: &R::Configuration, inputs: &[RobotInput]) -> bool {
+    let after = |mode, input| Some(accepted(robot, q, &mode, input, |_| Ok(())).ok()?.0);
+    inputs.iter().try_fold(DriveMode::default(), after).is_some()
+}
+
 /// What an accepted input makes of the driver and of the robot.
 fn accepted<R: SimulatedRobot>(
     robot: &R,

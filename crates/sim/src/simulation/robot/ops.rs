@@ -40,8 +40,9 @@ pub struct RobotOps {
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
     /// robot.
     pub(crate) decode: fn(&mut World, Entity, &RobotState) -> Option<()>,
-    /// Puts back what others have written into the robot in a run, and returns the names of the components.
-    pub(crate) put_back: fn(&mut World, Entity) -> Vec<String>,
+    /// Puts back what others have written into the robot in a run, and returns the names of the components; `None`
+    /// where one is missing.
+    pub(crate) put_back: fn(&mut World, Entity) -> Option<Vec<String>>,
     /// Takes what others have written into the robot at tick 0.
     pub(crate) follow: fn(&mut World, Entity) -> FollowedValues,
     /// The robot as a view shows it.
@@ -171,7 +172,7 @@ fn decode<R: SimulatedRobot>(world: &mut World, e: Entity, state: &RobotState) -
         own: OwnState::new(extra),
         ..LastValues::at_start(robot, q)
     };
-    values.insert(&mut world.entity_mut(e));
+    world.entity_mut(e).insert(values.into_parts());
     Some(())
 }
 

@@ -9,7 +9,9 @@ use super::registry::{KindPlugin, RobotKinds, Spawner};
 use super::spawn::spawn_robot;
 use crate::simulation::schedule::{CrowdSystems, KindSystems, TickPhase};
 use crate::simulation::tick::{drive, settle};
-use crate::simulation::truth::watch::watch_components;
+use crate::simulation::truth::last_values::LastValues;
+use crate::simulation::truth::touched::AtStart::{Followed, PutBack};
+use crate::simulation::truth::watch::{watch as watch_unnamed, watch_components};
 use crate::simulation::{
     Configuration, Contacts, Control, Cut, DrawnTour, DriveMode, OwnState, PreviousConfiguration, RobotModel, RobotOps,
     SimulatedRobot, SimulationSchedule, SimulationSystems, TickMotion, state,
@@ -46,8 +48,11 @@ impl<R: SimulatedRobot> RobotPlugin<R> {
 
 /// Watches the components of a type of robots.
 fn watch<R: SimulatedRobot>(world: &mut World) {
-    watch_components!(world, Configuration<R>, PreviousConfiguration<R>, Control<R>, Contacts<R>, DriveMode<R>);
-    watch_components!(world, OwnState<R>, DrawnTour<R>, TickMotion<R>, Cut<R>);
+    watch_components!(world, Followed, Configuration<R>, DriveMode<R>);
+    watch_components!(world, PutBack, PreviousConfiguration<R>, Control<R>, Contacts<R>, OwnState<R>);
+    watch_components!(world, PutBack, DrawnTour<R>, TickMotion<R>, Cut<R>);
+    let kept = world.register_component::<LastValues<R>>();
+    watch_unnamed(world, &[kept]);
 }
 
 /// The place of the systems of `R` among those of all types, and whether they are in the schedule.
@@ -108,7 +113,7 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
         if app.world().contains_resource::<SystemsOf<R>>() {
             return;
         }
-        watch_components!(app.world_mut(), RobotModel<R>);
+        watch_components!(app.world_mut(), Followed, RobotModel<R>);
         app.insert_resource(SystemsOf::<R> { number, installed: false, of: std::marker::PhantomData });
         let sets = [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle, KindSystems::Encode];
         for set in sets {

@@ -8,7 +8,7 @@ use bevy::prelude::*;
 
 use super::request::SpawnRequest;
 use crate::simulation::truth::component_name::name_of;
-use crate::simulation::truth::last_values::LastValues;
+use crate::simulation::truth::last_values::{FollowedValues, LastValues, follow};
 use crate::simulation::truth::thing::RunThing;
 use crate::simulation::{
     Configuration, Contacts, Control, Cut, DrawnTour, DriveMode, OwnState, PreviousConfiguration, ResidesIn, RobotId,
@@ -73,6 +73,8 @@ pub(crate) struct RobotType {
     pub(crate) strip: fn(&mut World, Entity),
     /// Takes all components of a robot off an entity.
     pub(crate) undress: fn(&mut World, Entity),
+    /// Takes what others have written into an entity of the type at tick 0.
+    pub(crate) follow: fn(&mut World, Entity) -> FollowedValues,
     /// What puts the values that the simulation wrote last onto an entity.
     pub(crate) last_values: fn(&World, Entity) -> Option<ValueWriter>,
 }
@@ -93,9 +95,14 @@ impl RobotType {
                     robot.remove::<(RobotId, RobotName, ResidesIn, RobotOps, Slip, RunThing)>();
                 }
             },
+            follow: follow::<R>,
             last_values: |world, entity| {
                 let kept = world.get::<LastValues<R>>(entity)?.clone();
-                Some(Box::new(move |world, entity| kept.insert(&mut world.entity_mut(entity))))
+                Some(Box::new(move |world, entity| {
+                    if let Ok(mut robot) = world.get_entity_mut(entity) {
+                        robot.insert(kept.into_parts());
+                    }
+                }))
             },
         }
     }

@@ -115,8 +115,8 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
     let entity = request.entity.unwrap_or_else(|| world.spawn_empty().id());
     let types = world.resource::<RobotKinds>().types().to_vec();
     types.iter().filter(|other| other.id != TypeId::of::<R>()).for_each(|other| (other.strip)(world, entity));
-    let mut spawned = world.entity_mut(entity);
-    spawned.insert((
+    // in one go, for an observer may despawn what it sees
+    let parts = (
         RobotModel(robot.clone()),
         DrawnTour::<R>(tour),
         Slip(slip(request.seed, &resident.name)),
@@ -127,8 +127,10 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
         RobotName { name: resident.name.clone(), kind: resident.kind.clone(), about: request.about },
         ResidesIn(request.world),
         RunThing::Robot(request.id.0 as usize),
-    ));
-    LastValues::at_start(&robot, q).insert(&mut spawned);
+    );
+    if let Ok(mut spawned) = world.get_entity_mut(entity) {
+        spawned.insert((parts, LastValues::at_start(&robot, q).into_parts()));
+    }
     if request.with_sensors {
         spawn_sensors(world, entity, resident, sensor.map(|sensor| (sensor, noise)));
     }
@@ -138,15 +140,20 @@ pub(crate) fn spawn_robot<R: SimulatedRobot>(
 /// Spawns the sensors of a robot: the run's own, with the robot's noise, and those that the resident names.
 fn spawn_sensors(world: &mut World, robot: Entity, resident: &Resident, own: Option<(RangeSensor, Option<BeamModel>)>) {
     if let Some((sensor, noise)) = own {
-        let mut spawned = world.spawn((SensorModel::from(sensor), OfConfiguration, MountedOn(robot)));
-        noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
+        spawn_sensor(world, (SensorModel::from(sensor), OfConfiguration, MountedOn(robot)), noise);
     }
     for sensor in &resident.sensors {
         let name = SensorName(sensor.name.clone());
         let mount = SensorMount(sensor.mount);
-        let mut spawned = world.spawn((SensorModel(sensor.rays), name, mount, OfConfiguration, MountedOn(robot)));
-        sensor.noise.into_iter().for_each(|noise| _ = spawned.insert(SensorNoise(noise)));
+        spawn_sensor(world, (SensorModel(sensor.rays), name, mount, OfConfiguration, MountedOn(robot)), sensor.noise);
     }
+}
+
+fn spawn_sensor(world: &mut World, parts: impl Bundle, noise: Option<BeamModel>) {
+    match noise {
+        Some(noise) => world.spawn((parts, SensorNoise(noise))),
+        None => world.spawn(parts),
+    };
 }
 
 /// The entities of a run's robots by world, in the order of their ids; `None` for one that is to be spawned.

@@ -18,12 +18,16 @@ pub(in crate::simulation) fn dress_sensor(world: &mut World, k: usize) {
     let Some(robot) = world.resource::<Roster>().robots.get(sensor.id as usize).copied() else { return };
     let scan = world.resource::<LatestFrame>().0.scans.get(k).map(|scan| Scan(scan.ranges.clone()));
     let entity = if world.get_entity(entity).is_ok() { entity } else { world.spawn_empty().id() };
-    let mut dressed = world.entity_mut(entity);
-    dressed.insert((parts, MountedOn(robot), scan.unwrap_or_default(), OfConfiguration, RunThing::Sensor(k)));
-    match noise {
-        Some(noise) => dressed.insert(noise),
-        None => dressed.remove::<SensorNoise>(),
-    };
+    if let Ok(mut dressed) = world.get_entity_mut(entity) {
+        dressed.insert((parts, MountedOn(robot), scan.unwrap_or_default(), OfConfiguration, RunThing::Sensor(k)));
+    }
+    // looked up anew, for an observer may despawn what it sees
+    if let Ok(mut dressed) = world.get_entity_mut(entity) {
+        match noise {
+            Some(noise) => dressed.insert(noise),
+            None => dressed.remove::<SensorNoise>(),
+        };
+    }
     if let Some(sensor) = world.resource_mut::<SensorRoster>().sensors.get_mut(k) {
         (sensor.entity, sensor.robot) = (entity, robot);
     }

@@ -18,7 +18,8 @@ use motion_lab_core::robots::{CHANNEL_UNITS, Motion};
 
 /// The robots of an app that stand while nobody drives them, by their ids; a run without this resource has none.
 ///
-/// It is no part of a run's recipe: whoever replays a log of such a run says the same again.
+/// It is no part of a run's recipe: whoever replays a log of such a run says the same again. Robots that are spawned or
+/// despawned at tick 0 may give others another id.
 #[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
 pub struct StandingRobots(pub BTreeSet<RobotId>);
 

@@ -1,6 +1,6 @@
 //! Makes a run at tick 0 follow its entities.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use bevy::prelude::*;
@@ -8,14 +8,16 @@ use bevy::prelude::*;
 use super::foreign_change::ForeignChange;
 use super::last_values::FollowedValues;
 use super::lookup::{thing_name, thing_of};
-use super::put_back::{refuse, take_off};
+use super::put_back::{put_scans_back, refuse, take_off};
 use super::residents::{self, FoundRobots};
 use super::robot_refusal::RobotRefusal;
 use super::script_fit::{begin_with, fit};
 use super::thing::RunThing;
-use super::touched::{ForeignTouches, at_work};
+use super::touched::{ForeignTouches, Touch, at_work};
+use super::worlds::put_worlds_back;
 use crate::run::RobotInput;
-use crate::simulation::obstacles::roster::{dress_world, sync_added, undress as undress_obstacle};
+use crate::simulation::obstacles::dress::undress as undress_obstacle;
+use crate::simulation::obstacles::roster::sync_added;
 use crate::simulation::obstacles::start::follow_obstacles;
 use crate::simulation::robot::spawn::{RobotEntities, spawn_robots};
 use crate::simulation::sensors::dress::undress as undress_sensor;
@@ -32,63 +34,94 @@ use motion_lab_core::worlds::Resident;
 /// Makes the run follow its entities, if others have changed one. The robots keep the order of their ids, then come new
 /// ones by their names; so do obstacles. What can't be in the run is refused.
 pub(super) fn follow(world: &mut World) {
-    let (has_moved, inputs) = follow_values(world);
-    let is_unsettled = std::mem::take(&mut world.resource_mut::<ForeignTouches>().is_unsettled) || has_moved;
-    let touched = std::mem::take(&mut world.resource_mut::<ForeignTouches>().entities);
-    if !is_unsettled && inputs.is_empty() {
+    put_scans_back(world);
+    let mut values = follow_values(world);
+    let mut touched = world.resource_mut::<ForeignTouches>();
+    let is_unsettled = std::mem::take(&mut touched.is_unsettled) || values.has_moved;
+    let touched = std::mem::take(&mut touched.entities);
+    if !is_unsettled && values.inputs.is_empty() {
         return;
     }
     let before =
         (Arc::clone(world.resource::<RunConfig>().config()), world.resource::<PendingInput>().script().clone());
     if is_unsettled {
-        let is_lost = |entity: &Entity| world.get_entity(*entity).is_err();
-        let lost: BTreeSet<usize> = touched
-            .iter()
-            .filter(|(e, _)| is_lost(e))
-            .filter_map(|(_, t)| match t.thing? {
-                RunThing::World(w) => Some(w),
-                _ => None,
-            })
-            .collect();
-        let gone = touched.iter().filter_map(|(&entity, touch)| match touch.thing? {
-            thing @ RunThing::World(_) => Some(ForeignChange {
-                entity,
-                thing: thing_name(world, thing),
-                component: String::new(),
-                is_of_run: true,
-            }),
-            _ => None,
-        });
-        let gone: Vec<ForeignChange> = gone.filter(|change| is_lost(&change.entity)).collect();
-        refuse(world, gone);
+        let lost = put_worlds_back(world, &touched);
+        follow_new_values(world, &mut values);
         at_work(world, |world| follow_entities(world, &lost));
+        refuse_put_back(world, &touched);
     }
-    follow_script(world, inputs);
+    follow_script(world, values.inputs);
     let is_other =
         **world.resource::<RunConfig>().config() != *before.0 || *world.resource::<PendingInput>().script() != before.1;
     begin_anew(world, is_other);
 }
 
-/// Takes what others have written into the robots: whether a configuration or a model is another, and the inputs that
-/// drive modes stand for.
-fn follow_values(world: &mut World) -> (bool, Vec<(String, RobotInput)>) {
-    let (mut has_moved, mut inputs) = (false, Vec::new());
+/// What others have written into the robots.
+#[derive(Default)]
+struct WrittenValues {
+    /// Whether a configuration or a model is another.
+    has_moved: bool,
+    /// The inputs that drive modes stand for, by the robot, whose name and id may change yet.
+    inputs: Vec<(Entity, Vec<RobotInput>)>,
+}
+
+/// Takes what others have written into the robots of the run.
+fn follow_values(world: &mut World) -> WrittenValues {
+    let mut values = WrittenValues::default();
     for id in 0..world.resource::<Roster>().robots.len() {
         let robot = world.resource::<Roster>().robots[id];
         let Some(RobotOps { follow, .. }) = world.get::<RobotOps>(robot).copied() else { continue };
-        let FollowedValues { is_moved, input, refused } = follow(world, robot);
-        has_moved |= is_moved;
-        if let Some(input) = input {
-            // by the name that it is to have
-            inputs.extend(world.get::<RobotName>(robot).map(|name| (name.name.clone(), input)));
-        }
-        if !refused.is_empty() {
-            let thing = thing_name(world, RunThing::Robot(id));
-            let change = |component| ForeignChange { entity: robot, thing: thing.clone(), component, is_of_run: true };
-            refuse(world, refused.into_iter().map(change).collect());
+        let followed = at_work(world, |world| follow(world, robot));
+        let thing = thing_name(world, RunThing::Robot(id));
+        take_values(world, (robot, thing), followed, &mut values);
+    }
+    values
+}
+
+/// Takes the drive modes of entities that are yet to become robots of the run.
+fn follow_new_values(world: &mut World, values: &mut WrittenValues) {
+    let types = world.resource::<RobotKinds>().types().to_vec();
+    for of_type in types {
+        for robot in (of_type.models)(world) {
+            if matches!(thing_of(world, robot), Some(RunThing::Robot(_))) {
+                continue;
+            }
+            let followed = at_work(world, |world| (of_type.follow)(world, robot));
+            let name = world.get::<RobotName>(robot).map_or("", |name| name.name.as_str());
+            let thing = format!("robot {name:?}");
+            take_values(world, (robot, thing), followed, values);
         }
     }
-    (has_moved, inputs)
+}
+
+fn take_values(
+    world: &mut World,
+    (entity, thing): (Entity, String),
+    followed: FollowedValues,
+    values: &mut WrittenValues,
+) {
+    let FollowedValues { is_moved, inputs, refused } = followed;
+    values.has_moved |= is_moved;
+    if !inputs.is_empty() {
+        values.inputs.push((entity, inputs));
+    }
+    let change = |component| ForeignChange { entity, thing: thing.clone(), component, is_of_run: true };
+    refuse(world, refused.into_iter().map(change).collect());
+}
+
+/// Says which components of robots and sensors that are still there were put back.
+fn refuse_put_back(world: &mut World, touched: &BTreeMap<Entity, Touch>) {
+    for (&entity, touch) in touched.iter().filter(|(_, touch)| touch.thing.is_some()) {
+        let Some(thing @ (RunThing::Robot(_) | RunThing::Sensor(_))) = thing_of(world, entity) else { continue };
+        let (thing, watched) = (thing_name(world, thing), world.resource::<ForeignTouches>());
+        let own = touch.components.iter().filter(|&&component| watched.is_put_back_at_start(component));
+        let change = |component: &str| {
+            let component = component.to_owned();
+            ForeignChange { entity, thing: thing.clone(), component, is_of_run: true }
+        };
+        let changes = own.map(|&component| change(watched.name(component))).collect();
+        refuse(world, changes);
+    }
 }
 
 /// Makes configuration and rosters those of the entities, and the components of the entities those of the
@@ -96,7 +129,6 @@ fn follow_values(world: &mut World) -> (bool, Vec<(String, RobotInput)>) {
 fn follow_entities(world: &mut World, lost: &BTreeSet<usize>) {
     let old = Arc::clone(world.resource::<RunConfig>().config());
     let mut config = TourConfig::clone(&old);
-    lost.iter().for_each(|&w| dress_world(world, w));
     let FoundRobots { worlds: robots, refused } = residents::find(world, &old, lost);
     for refusal in &refused {
         let (entity, name, reason, stays) =
@@ -155,11 +187,17 @@ fn take_robots(world: &mut World, old: &TourConfig, config: &mut TourConfig, ent
     }
 }
 
-/// Makes the script one that a run of the configuration holds.
-fn follow_script(world: &mut World, inputs: Vec<(String, RobotInput)>) {
+/// Makes the script one that a run of the configuration holds, and that drives these robots from the start on.
+fn follow_script(world: &mut World, inputs: Vec<(Entity, Vec<RobotInput>)>) {
     let config = Arc::clone(world.resource::<RunConfig>().config());
     let mut script = world.resource::<PendingInput>().script().clone();
-    begin_with(&mut script, inputs);
+    // a robot that is not in the run was refused
+    let id_of = |robot: Entity| match thing_of(world, robot)? {
+        RunThing::Robot(id) => Some(id),
+        _ => None,
+    };
+    let by_id = inputs.into_iter().filter_map(|(robot, inputs)| Some((id_of(robot)?, inputs))).collect();
+    begin_with(&mut script, &config, by_id);
     for error in fit(&mut script, &config) {
         world.write_message(CommandRefused(CommandError::Script(error)));
     }

@@ -4,13 +4,14 @@ use bevy::prelude::*;
 
 use super::component_name::name_of;
 use crate::run::{Quantized, RobotInput};
+use crate::simulation::robot::driven::are_taken;
 use crate::simulation::{
     Configuration, Contacts, Control, DriveMode, OwnState, PreviousConfiguration, RobotModel, SimulatedRobot,
 };
 use motion_lab_core::configuration::Configuration as _;
 
 /// The values of a robot as the simulation wrote them last: what other systems write meanwhile differs from them, and
-/// put back. Only the simulation can name it.
+/// is put back. Only the simulation can name it.
 #[derive(Component, Clone, Debug)]
 #[component(clone_behavior = Ignore)]
 pub(crate) struct LastValues<R: SimulatedRobot> {
@@ -28,9 +29,9 @@ pub(crate) struct LastValues<R: SimulatedRobot> {
 pub(crate) struct FollowedValues {
     /// Whether its configuration or its model is another.
     pub(crate) is_moved: bool,
-    /// The input that its drive mode stands for.
-    pub(crate) input: Option<RobotInput>,
-    /// The names of the components that nobody else may write.
+    /// The inputs that its drive mode stands for.
+    pub(crate) inputs: Vec<RobotInput>,
+    /// The names of the components that are put back.
     pub(crate) refused: Vec<String>,
 }
 
@@ -48,10 +49,10 @@ impl<R: SimulatedRobot> LastValues<R> {
         }
     }
 
-    /// Puts the values on the robot's entity, and is kept there.
-    pub(crate) fn insert(self, robot: &mut EntityWorldMut) {
+    /// The values as components of the robot's entity, and what keeps them.
+    pub(crate) fn into_parts(self) -> impl Bundle {
         let LastValues { configuration, previous, control, contacts, mode, own, .. } = self.clone();
-        robot.insert((configuration, previous, control, contacts, mode, own, self));
+        (configuration, previous, control, contacts, mode, own, self)
     }
 }
 
@@ -73,45 +74,46 @@ impl<R: SimulatedRobot> LastValues<R> {
     }
 }
 
-/// Compares the components of a robot with the values kept, puts those back that `puts_back` says, and returns the
-/// names of all that differ. One that is there with other bits and compares as equal, as -0.0 does, is put back in
-/// silence.
-fn compare<R: SimulatedRobot>(world: &mut World, e: Entity, puts_back: bool) -> Option<Vec<String>> {
+/// Compares the components of a robot with the values kept, puts those back that may not be written, and returns the
+/// names of all that differ. Configuration and drive mode may be written at tick 0, and not later. One that is there
+/// with other bits and compares as equal, as -0.0 does, is put back in silence; one that is missing stays so.
+fn compare<R: SimulatedRobot>(world: &mut World, e: Entity, is_later: bool) -> Option<Vec<String>> {
     let mut robot = world.get_entity_mut(e).ok()?;
     let kept = robot.get::<LastValues<R>>()?.clone();
     let mut differing = Vec::new();
-    let mut one = |differs: Option<bool>, name: fn() -> String| {
-        if differs == Some(true) {
+    let mut one = |differs: bool, name: fn() -> String| {
+        if differs {
             differing.push(name());
         }
     };
-    one(put(&mut robot, kept.configuration, puts_back), name_of::<Configuration<R>>);
+    one(put(&mut robot, kept.configuration, is_later), name_of::<Configuration<R>>);
+    one(put(&mut robot, kept.mode, is_later), name_of::<DriveMode<R>>);
     one(put(&mut robot, kept.previous, true), name_of::<PreviousConfiguration<R>>);
     one(put(&mut robot, kept.control, true), name_of::<Control<R>>);
     one(put(&mut robot, kept.contacts, true), name_of::<Contacts<R>>);
-    one(put(&mut robot, kept.mode, puts_back), name_of::<DriveMode<R>>);
     one(put(&mut robot, kept.own, true), name_of::<OwnState<R>>);
     Some(differing)
 }
 
-/// Whether a component differs from the value kept; it then becomes that one, if `puts_back`. `None` where it is
-/// missing.
+/// Whether a component differs from the value kept; it then becomes that one, if it `is_put_back`.
 fn put<C: Component<Mutability = bevy::ecs::component::Mutable> + PartialEq>(
     robot: &mut EntityWorldMut,
     kept: C,
-    puts_back: bool,
-) -> Option<bool> {
-    let mut now = robot.get_mut::<C>()?;
+    is_put_back: bool,
+) -> bool {
+    let Some(mut now) = robot.get_mut::<C>() else { return false };
     let differs = *now != kept;
-    if differs && puts_back {
-        *now = kept;
-    } else if puts_back {
+    if !differs {
+        // to the bit
         *now.bypass_change_detection() = kept;
+    } else if is_put_back {
+        *now = kept;
     }
-    Some(differs)
+    differs
 }
 
 /// Whether the components of a robot are those that the simulation wrote last: what is part of a frame to the bit.
+/// `None` where one is missing.
 fn are_untouched<R: SimulatedRobot>(world: &World, e: Entity) -> Option<bool> {
     let robot = world.get_entity(e).ok()?;
     let last = robot.get::<LastValues<R>>()?;
@@ -129,41 +131,50 @@ fn same<C: motion_lab_core::configuration::Configuration>(a: &C, b: &C) -> bool 
     a.coordinates().iter().map(|x| x.to_bits()).eq(b.coordinates().iter().map(|x| x.to_bits()))
 }
 
-/// Puts the values of a robot back, and returns the names of the components that differed.
-pub(crate) fn put_back<R: SimulatedRobot>(world: &mut World, e: Entity) -> Vec<String> {
-    if are_untouched::<R>(world, e) == Some(true) {
-        return Vec::new();
-    }
-    compare::<R>(world, e, true).unwrap_or_default()
+/// Puts the values of a robot back, and returns the names of the components that differed; `None` where one is missing.
+pub(crate) fn put_back<R: SimulatedRobot>(world: &mut World, e: Entity) -> Option<Vec<String>> {
+    if are_untouched::<R>(world, e)? { Some(Vec::new()) } else { compare::<R>(world, e, true) }
 }
 
-/// Takes what others have written into a robot at tick 0. All but its configuration is put back.
+/// Takes what others have written into a robot at tick 0, one that is new in the run too. All but its configuration is
+/// put back.
 pub(crate) fn follow<R: SimulatedRobot>(world: &mut World, e: Entity) -> FollowedValues {
-    let Some(mut refused) = compare::<R>(world, e, false) else { return FollowedValues::default() };
-    let has_moved = refused.iter().any(|name| *name == name_of::<Configuration<R>>());
-    let is_another =
-        world.get::<RobotModel<R>>(e).zip(world.get::<LastValues<R>>(e)).is_some_and(|(m, k)| m.0 != k.model);
-    refused.retain(|name| *name != name_of::<Configuration<R>>());
-    let mode = world.get::<DriveMode<R>>(e).copied().unwrap_or_default();
-    let input = world.get::<RobotModel<R>>(e).and_then(|model| input_of(&model.0, &mode));
-    // a mode that an input stands for becomes that input
-    refused.retain(|name| input.is_none() || *name != name_of::<DriveMode<R>>());
-    if let Some(mut now) = world.get_mut::<DriveMode<R>>(e) {
-        now.set_if_neq(DriveMode::default());
+    let model = world.get::<RobotModel<R>>(e).map(|model| &model.0);
+    let has_its_model = model.zip(world.get::<LastValues<R>>(e)).is_some_and(|(model, last)| *model == last.model);
+    if has_its_model && are_untouched::<R>(world, e) == Some(true) {
+        return FollowedValues::default();
     }
-    FollowedValues { is_moved: has_moved || is_another, input, refused }
+    let mut refused = compare::<R>(world, e, false).unwrap_or_default();
+    let [of_configuration, of_mode] = [name_of::<Configuration<R>>(), name_of::<DriveMode<R>>()];
+    let is_moved = !has_its_model || refused.contains(&of_configuration);
+    refused.retain(|name| *name != of_configuration && *name != of_mode);
+    let inputs = inputs_of_mode::<R>(world, e).unwrap_or_else(|| {
+        refused.push(of_mode);
+        Vec::new()
+    });
+    if let Some(mut mode) = world.get_mut::<DriveMode<R>>(e) {
+        mode.set_if_neq(DriveMode::default());
+    }
+    FollowedValues { is_moved, inputs, refused }
 }
 
-/// The input that makes a touring robot be driven so. `None` for the tour, and for what no input gives.
-fn input_of<R: SimulatedRobot>(model: &R, mode: &DriveMode<R>) -> Option<RobotInput> {
-    let DriveMode { manual, channels: [a, b], target, refusals } = *mode;
-    if !manual || refusals > 0 {
+/// The inputs that make a touring robot be driven as its mode says. None for the tour; `None` for what no input gives.
+fn inputs_of_mode<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Vec<RobotInput>> {
+    let mode = world.get::<DriveMode<R>>(e).copied().unwrap_or_default();
+    let DriveMode { manual, channels: [a, b], target, refusals } = mode;
+    if mode == DriveMode::default() {
+        return Some(Vec::new());
+    } else if !manual || refusals > 0 {
         return None;
     }
-    if let Some(target) = target {
-        let coordinates = target.coordinates();
-        return coordinates.iter().map(|&c| Quantized::try_new(c)).collect::<Option<_>>().map(RobotInput::MoveTo);
+    let to = |q: R::Configuration| q.coordinates().iter().map(|&c| Quantized::try_new(c)).collect::<Option<_>>();
+    let mut inputs = Vec::new();
+    if target.is_none() || [a, b] != [0; 2] {
+        inputs.push(RobotInput::Drive(a, b));
     }
-    let is_driven = model.driven([0.0; 2]).is_some() && [a, b].iter().all(|c| (-128..=128).contains(c));
-    is_driven.then_some(RobotInput::Drive(a, b))
+    if let Some(target) = target {
+        inputs.push(RobotInput::MoveTo(to(target)?));
+    }
+    let (robot, q) = (world.get::<RobotModel<R>>(e)?, world.get::<Configuration<R>>(e)?);
+    are_taken(&robot.0, &q.0, &inputs).then_some(inputs)
 }

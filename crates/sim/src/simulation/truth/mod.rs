@@ -13,6 +13,7 @@ mod script_fit;
 pub(crate) mod thing;
 pub(crate) mod touched;
 pub(crate) mod watch;
+mod worlds;
 
 use bevy::prelude::World;
 
@@ -25,8 +26,12 @@ pub(super) use follow::leave_start;
 /// it calls it first.
 ///
 /// While the run stands at tick 0 the entities are the truth: the run's configuration, its script and frame 0 follow
-/// them. Later the run is, and what was changed is put back. What can't be followed, and all that is put back, is
-/// refused by a [`CommandRefused`](crate::simulation::CommandRefused).
+/// them. Later the run is, and what was changed is put back. What can't be followed, and what is put back, is refused
+/// by a [`CommandRefused`](crate::simulation::CommandRefused).
+///
+/// What observers change in answer to the simulation's own changes of an entity is not told from these. It is followed
+/// at the start of a run. Later a robot, a sensor or a world that has lost something so is put back all the same, and
+/// so are values.
 pub fn settle(world: &mut World) {
     if !world.contains_resource::<Roster>() {
         return;

@@ -8,12 +8,12 @@ use super::foreign_change::ForeignChange;
 use super::lookup::{shape_name, thing_name, thing_of, world_number};
 use super::thing::RunThing;
 use super::touched::{ForeignTouches, Touch, at_work};
-use crate::simulation::obstacles::roster as obstacles;
+use crate::simulation::obstacles::dress as obstacles;
 use crate::simulation::robot::spawn::respawn;
 use crate::simulation::sensors::dress as sensors;
 use crate::simulation::{
     CommandError, CommandRefused, LatestFrame, MountedOn, ObstacleOf, ObstacleShape, ResidesIn, RobotKinds, RobotOps,
-    Roster, Scan, SensorModel, SensorName, SensorRoster,
+    Roster, Scan, SensorModel, SensorName, SensorRoster, WorldScene,
 };
 
 /// Puts back the components that were inserted, replaced or removed, and the entities that were despawned. An entity
@@ -39,7 +39,7 @@ pub(crate) fn put_back(world: &mut World) {
 }
 
 /// Puts back a thing of the run.
-fn put_thing_back(world: &mut World, entity: Entity, thing: RunThing, touch: &Touch) -> Vec<ForeignChange> {
+pub(super) fn put_thing_back(world: &mut World, entity: Entity, thing: RunThing, touch: &Touch) -> Vec<ForeignChange> {
     let name = thing_name(world, thing);
     let change = |component: &str| ForeignChange {
         entity,
@@ -58,7 +58,7 @@ fn put_thing_back(world: &mut World, entity: Entity, thing: RunThing, touch: &To
 }
 
 /// Gives a thing of the run the entity and the components that the run has for it.
-pub(super) fn dress(world: &mut World, thing: RunThing) {
+fn dress(world: &mut World, thing: RunThing) {
     match thing {
         RunThing::World(w) => obstacles::dress_world(world, w),
         RunThing::Robot(id) => respawn(world, id),
@@ -101,30 +101,62 @@ pub(super) fn take_off(world: &mut World, entity: Entity) -> Vec<ForeignChange> 
     changes
 }
 
-/// Puts back the values of robots and the readings of sensors that others have written.
+/// Puts back the values of robots and the readings of sensors that others have written, and the things of the run that
+/// are not whole any more: what observers of others do while the simulation itself changes entities is not told from
+/// its own changes.
 pub(crate) fn put_values_back(world: &mut World) {
-    let robots = world.resource::<Roster>().robots.len();
-    for id in 0..robots {
-        let robot = world.resource::<Roster>().robots[id];
-        let Some(RobotOps { put_back, .. }) = world.get::<RobotOps>(robot).copied() else { continue };
-        let components = put_back(world, robot);
-        if !components.is_empty() {
-            let thing = thing_name(world, RunThing::Robot(id));
-            let change = |component| ForeignChange { entity: robot, thing: thing.clone(), component, is_of_run: true };
-            refuse(world, components.into_iter().map(change).collect());
+    for w in 0..world.resource::<Roster>().worlds.len() {
+        let entity = world.resource::<Roster>().worlds[w];
+        if world.get::<WorldScene>(entity).is_none() {
+            put_missing_back(world, entity, RunThing::World(w));
+        }
+        for (number, entity) in obstacles::missing(world, w) {
+            put_missing_back(world, entity, RunThing::Obstacle(w, number));
         }
     }
-    let sensors = world.resource::<SensorRoster>().sensors.len();
-    for k in 0..sensors {
-        let ranges = world.resource::<LatestFrame>().0.scans.get(k).map(|scan| &scan.ranges);
+    for id in 0..world.resource::<Roster>().robots.len() {
+        let robot = world.resource::<Roster>().robots[id];
+        let ops = world.get::<RobotOps>(robot).copied();
+        match ops.and_then(|ops| (ops.put_back)(world, robot)) {
+            Some(components) if components.is_empty() => {}
+            Some(components) => {
+                let thing = thing_name(world, RunThing::Robot(id));
+                let change =
+                    |component| ForeignChange { entity: robot, thing: thing.clone(), component, is_of_run: true };
+                refuse(world, components.into_iter().map(change).collect());
+            }
+            None => put_missing_back(world, robot, RunThing::Robot(id)),
+        }
+    }
+    for k in 0..world.resource::<SensorRoster>().sensors.len() {
         let entity = world.resource::<SensorRoster>().sensors[k].entity;
-        let (Some(ranges), Some(scan)) = (ranges, world.get::<Scan>(entity)) else { continue };
-        if !Arc::ptr_eq(ranges, &scan.0) {
-            at_work(world, |world| sensors::dress_sensor(world, k));
+        if world.get::<Scan>(entity).is_none() {
+            put_missing_back(world, entity, RunThing::Sensor(k));
+        }
+    }
+    put_scans_back(world);
+}
+
+/// Puts back the readings of sensors that others have written.
+pub(super) fn put_scans_back(world: &mut World) {
+    for k in 0..world.resource::<SensorRoster>().sensors.len() {
+        let entity = world.resource::<SensorRoster>().sensors[k].entity;
+        let ranges = world.resource::<LatestFrame>().0.scans.get(k).map(|scan| Arc::clone(&scan.ranges));
+        let (Some(ranges), Some(mut scan)) = (ranges, world.get_mut::<Scan>(entity)) else { continue };
+        if !Arc::ptr_eq(&ranges, &scan.0) {
+            scan.0 = ranges;
             let thing = thing_name(world, RunThing::Sensor(k));
             refuse(world, vec![ForeignChange { entity, thing, component: "Scan".into(), is_of_run: true }]);
         }
     }
+}
+
+/// Puts back a thing of the run that is not whole.
+fn put_missing_back(world: &mut World, entity: Entity, thing: RunThing) {
+    let component = if world.get_entity(entity).is_err() { "" } else { "one of its components" };
+    let thing_name = thing_name(world, thing);
+    at_work(world, |world| dress(world, thing));
+    refuse(world, vec![ForeignChange { entity, thing: thing_name, component: component.into(), is_of_run: true }]);
 }
 
 /// Says what was put back.

@@ -10,7 +10,7 @@ use super::robot_refusal::RobotRefusal;
 use super::thing::RunThing;
 use crate::simulation::robot::spawn::routes;
 use crate::simulation::{RobotKinds, RobotName, Transport};
-use crate::tour::TourConfig;
+use crate::tour::{ConfigError, MAX_ROBOTS, RouteTours, TourConfig};
 use motion_lab_core::worlds::{Resident, World as WorldModel, check_name};
 
 /// A robot of the run that is about to be.
@@ -54,6 +54,8 @@ pub(super) fn find(world: &mut World, config: &TourConfig, lost: &BTreeSet<usize
         config.worlds.iter().enumerate().flat_map(|(w, model)| model.robots.iter().map(move |r| (w, r))).collect();
     let mut found = FoundRobots { worlds: config.worlds.iter().map(|_| Vec::new()).collect(), refused: Vec::new() };
     let candidates = candidates(world, &old);
+    let seed = world.resource::<Transport>().seed;
+    let routes: Vec<Result<RouteTours, ConfigError>> = config.worlds.iter().map(|model| routes(model, seed)).collect();
     let mut names = Names::new(config);
     // which of several new ones with one name to take would depend on the order of entities
     let mut new: BTreeMap<&str, usize> = BTreeMap::new();
@@ -67,7 +69,7 @@ pub(super) fn find(world: &mut World, config: &TourConfig, lost: &BTreeSet<usize
         let Candidate { entity, known, ref name, .. } = candidate;
         let before = known.and_then(|id| old.get(id)).copied();
         match residence(world, entity) {
-            Some(w) => match accept(world, config, &candidate, (w, before), &mut names) {
+            Some(w) => match accept(world, (config, &routes), &candidate, (w, before), &mut names) {
                 Ok(resident) => found.worlds[w].push(FoundRobot { entity: Some(entity), resident, known }),
                 Err(reason) => {
                     // what the run had stays in it as it was
@@ -90,7 +92,25 @@ pub(super) fn find(world: &mut World, config: &TourConfig, lost: &BTreeSet<usize
             (a.known.is_none(), a.known, &a.resident.name).cmp(&(b.known.is_none(), b.known, &b.resident.name))
         });
     }
+    found.keep_to(MAX_ROBOTS);
     found
+}
+
+impl FoundRobots {
+    /// Leaves out the last of the new robots, as many as are too many.
+    fn keep_to(&mut self, most: usize) {
+        let number = self.worlds.iter().map(Vec::len).sum::<usize>();
+        let mut left_out = number.saturating_sub(most);
+        for robots in self.worlds.iter_mut().rev() {
+            let new = robots.iter().filter(|robot| robot.known.is_none()).count();
+            let out = robots.split_off(robots.len() - new.min(left_out));
+            left_out -= out.len();
+            self.refused.extend(out.into_iter().filter_map(|robot| {
+                let reason = RobotRefusal::Spawn(ConfigError::Robots(number).into());
+                Some(RefusedRobot { entity: robot.entity?, name: robot.resident.name, reason, stays: false })
+            }));
+        }
+    }
 }
 
 /// The entities that say that they are robots: those of the run under the names that they had, those of the run under
@@ -150,7 +170,7 @@ impl Names {
 /// The resident that an entity of a world is.
 fn accept(
     world: &World,
-    config: &TourConfig,
+    (config, routes): (&TourConfig, &[Result<RouteTours, ConfigError>]),
     candidate: &Candidate,
     (w, before): (usize, Option<(usize, &Resident)>),
     names: &mut Names,
@@ -160,7 +180,6 @@ fn accept(
     let kind = world.get::<RobotName>(*entity).ok_or(RobotRefusal::Name)?.kind.clone();
     let registered = world.resource::<RobotKinds>().kind(&kind).filter(|registered| registered.of_type == of_type);
     let registered = registered.ok_or(RobotRefusal::Kind(kind.clone()))?;
-    let seed = world.resource::<Transport>().seed;
     let base = match before {
         // a route is one of its world
         Some((old_world, old)) => Resident {
@@ -172,11 +191,40 @@ fn accept(
         },
         None => Resident::new(name.clone(), kind, []),
     };
-    let routes = routes(&config.worlds[w], seed).map_err(|error| RobotRefusal::Spawn(error.into()))?;
+    let routes = routes[w].as_ref().map_err(|error| RobotRefusal::Spawn(error.clone().into()))?;
     if before.is_none() && names.twins.contains(name) {
         return Err(RobotRefusal::NameTaken);
     }
-    let resident = (registered.describe)(world, *entity, base, (&config.worlds[w], &routes))?;
+    let resident = (registered.describe)(world, *entity, base, (&config.worlds[w], routes))?;
     names.take(w, name)?;
     Ok(resident)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_too_many_robots_the_last_new_ones_are_left_out() {
+        let robot = |name: &str, known| FoundRobot {
+            entity: Some(Entity::PLACEHOLDER),
+            resident: Resident::new(name, "rusty", []),
+            known,
+        };
+        let worlds = vec![
+            vec![robot("a", Some(0)), robot("new", None)],
+            vec![robot("b", Some(1)), robot("x", None), robot("y", None)],
+            vec![robot("c", Some(2))],
+        ];
+        let mut found = FoundRobots { worlds, refused: Vec::new() };
+        found.keep_to(4);
+        let names = |robots: &Vec<FoundRobot>| robots.iter().map(|r| r.resident.name.clone()).collect::<Vec<_>>();
+        assert_eq!(found.worlds.iter().map(names).collect::<Vec<_>>(), [vec!["a", "new"], vec!["b"], vec!["c"]]);
+        let refused: Vec<(&str, String)> =
+            found.refused.iter().map(|r| (r.name.as_str(), r.reason.to_string())).collect();
+        let reason = "6 robots: at most 100000".to_owned();
+        assert_eq!(refused, [("x", reason.clone()), ("y", reason)]);
+        found.keep_to(4);
+        assert_eq!(found.refused.len(), 2);
+    }
 }

@@ -1,5 +1,7 @@
 //! Makes a script fit a run whose robots and worlds were changed at tick 0.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::run::{Event, RobotInput, Script, ScriptError};
 use crate::tour::TourConfig;
 
@@ -23,14 +25,18 @@ pub(super) fn fit(script: &mut Script, config: &TourConfig) -> Vec<ScriptError> 
     refused
 }
 
-/// Puts inputs that hold from the start at the beginning of a script. One that the script begins with already, of the
-/// same robot and kind, is replaced.
-pub(super) fn begin_with(script: &mut Script, inputs: Vec<(String, RobotInput)>) {
-    for (robot, input) in inputs.into_iter().rev() {
-        let first = script.events.iter_mut().take_while(|e| e.tick <= 1).find(|e| e.robot == robot);
-        match first {
-            Some(event) if event.input.kind() == input.kind() => event.input = input,
-            _ => script.events.insert(0, Event { tick: 1, robot, input }),
-        }
-    }
+/// Makes robots be driven by these inputs from the start on, by their ids, whatever else the script does with them
+/// before tick 1.
+pub(super) fn begin_with(script: &mut Script, config: &TourConfig, inputs: BTreeMap<usize, Vec<RobotInput>>) {
+    let names: Vec<&str> = config.robot_names().collect();
+    let driven: BTreeSet<&str> = inputs.keys().map(|&id| names[id]).collect();
+    let is_at_start = |event: &Event| event.tick <= 1;
+    let drives =
+        |input: &RobotInput| matches!(input, RobotInput::Drive(..) | RobotInput::MoveTo(_) | RobotInput::Release);
+    let is_replaced = |e: &Event| is_at_start(e) && drives(&e.input) && driven.contains(e.robot.as_str());
+    script.events.retain(|event| !is_replaced(event));
+    let end = script.events.partition_point(is_at_start);
+    let all = inputs.into_iter().flat_map(|(id, inputs)| inputs.into_iter().map(move |input| (id, input)));
+    let event = |(id, input): (usize, RobotInput)| Event { tick: 1, robot: names[id].to_owned(), input };
+    script.events.splice(end..end, all.map(event));
 }

@@ -15,25 +15,48 @@ pub(crate) struct Touch {
     pub(super) components: BTreeSet<ComponentId>,
 }
 
+/// What becomes of a component that others change while the run stands at tick 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum AtStart {
+    /// The run follows it.
+    Followed,
+    /// It is put back.
+    PutBack,
+}
+
+/// A component that is watched.
+pub(super) struct Watched {
+    /// The name of its type.
+    pub(super) name: String,
+    pub(super) at_start: AtStart,
+}
+
 /// The components of the run's entities that others have inserted, replaced or removed since they were last settled,
 /// also by despawning.
 #[derive(Resource, Default)]
 pub(crate) struct ForeignTouches {
-    /// The names of the components that are watched.
-    pub(super) names: BTreeMap<ComponentId, String>,
+    /// The components that are watched and have a name in messages.
+    pub(super) watched: BTreeMap<ComponentId, Watched>,
+    /// How many observers watch them.
+    pub(super) observers: usize,
     pub(in crate::simulation) entities: BTreeMap<Entity, Touch>,
     /// How many pieces of the simulation's own work are under way, one within the other.
     pub(super) at_work: u32,
     /// Whether a command that puts things back is under way already.
     pub(super) is_queued: bool,
-    /// Whether something was changed while the run stood at tick 0.
+    /// Whether something was changed, or may have been, before the run left tick 0.
     pub(crate) is_unsettled: bool,
 }
 
 impl ForeignTouches {
     /// The name of a component that is watched.
     pub(super) fn name(&self, component: ComponentId) -> &str {
-        self.names.get(&component).map_or("", String::as_str)
+        self.watched.get(&component).map_or("", |watched| &watched.name)
+    }
+
+    /// Whether a component that others change at tick 0 is put back.
+    pub(super) fn is_put_back_at_start(&self, component: ComponentId) -> bool {
+        self.watched.get(&component).is_some_and(|watched| watched.at_start == AtStart::PutBack)
     }
 }
 

@@ -7,40 +7,58 @@ use bevy::prelude::*;
 use super::component_name::name_of;
 use super::lookup::thing_of;
 use super::put_back::put_back;
-use super::touched::ForeignTouches;
+use super::touched::{AtStart, ForeignTouches, Watched};
 use crate::simulation::{Roster, Transport};
 
 /// Watches components on all entities, under the names of their types.
 macro_rules! watch_components {
-    ($world:expr, $($component:ty),+ $(,)?) => {{
-        $($crate::simulation::truth::watch::name::<$component>($world);)+
-        $crate::simulation::truth::watch::watch::<($($component,)+)>($world);
+    ($world:expr, $at_start:expr, $($component:ty),+ $(,)?) => {{
+        let components = [$($crate::simulation::truth::watch::named::<$component>($world, $at_start)),+];
+        $crate::simulation::truth::watch::watch($world, &components);
     }};
 }
 pub(crate) use watch_components;
 
-/// Watches the components of a bundle on all entities.
-pub(crate) fn watch<B: Bundle>(world: &mut World) {
-    world.add_observer(|on: On<Insert, B>, world: DeferredWorld| note(world, on.entity, on.trigger().components));
-    world.add_observer(|on: On<Discard, B>, world: DeferredWorld| note(world, on.entity, on.trigger().components));
+/// Watches components on all entities. Those without a name are put back in silence.
+pub(crate) fn watch(world: &mut World, components: &[ComponentId]) {
+    let inserted =
+        Observer::new(|on: On<Insert>, world: DeferredWorld| note(world, on.entity, on.trigger().components));
+    let discarded =
+        Observer::new(|on: On<Discard>, world: DeferredWorld| note(world, on.entity, on.trigger().components));
+    for observer in [inserted, discarded] {
+        world.spawn(observer.with_components(components.iter().copied()));
+        world.resource_mut::<ForeignTouches>().observers += 1;
+    }
 }
 
-/// Gives a component the name that it has in messages.
-pub(crate) fn name<C: Component>(world: &mut World) {
+/// The number of a component, which gets the name of its type in messages.
+pub(crate) fn named<C: Component>(world: &mut World, at_start: AtStart) -> ComponentId {
     let (id, name) = (world.register_component::<C>(), name_of::<C>());
-    world.resource_mut::<ForeignTouches>().names.insert(id, name);
+    world.resource_mut::<ForeignTouches>().watched.insert(id, Watched { name, at_start });
+    id
+}
+
+/// Whether there are observers beside those that watch the run's components.
+pub(crate) fn are_observers_of_others(world: &mut World) -> bool {
+    let all = world.query_filtered::<(), With<Observer>>().iter(world).count();
+    all > world.resource::<ForeignTouches>().observers
 }
 
 fn note(mut world: DeferredWorld, entity: Entity, components: &[ComponentId]) {
     let is_own = world.get_resource::<ForeignTouches>().is_none_or(|touched| touched.at_work > 0);
-    if is_own || !world.contains_resource::<Roster>() {
+    if is_own {
+        return;
+    }
+    if !world.contains_resource::<Roster>() {
+        // the first run is yet to begin
+        world.resource_mut::<ForeignTouches>().is_unsettled = true;
         return;
     }
     let thing = thing_of(&world, entity);
     let touched = world.resource_mut::<ForeignTouches>().into_inner();
     let touch = touched.entities.entry(entity).or_default();
     touch.thing = touch.thing.or(thing);
-    touch.components.extend(components.iter().filter(|id| touched.names.contains_key(id)));
+    touch.components.extend(components.iter().filter(|id| touched.watched.contains_key(id)));
     if !std::mem::replace(&mut touched.is_queued, true) {
         world.commands().queue(look);
     }
