@@ -64,7 +64,7 @@ fn the_pages_keep_tables_and_examples_line_by_line() {
         ("motion-lab-query.1", "intersects  {\"intersects\":false}"),
         ("motion-lab-query.1", "scan        {\"ranges\":[..]}"),
         ("motion-lab-capture.1", "anatomy    the queries at a configuration"),
-        ("motion-lab-capture.1", "atlas      worlds with their names"),
+        ("motion-lab-capture.1", "atlas      worlds and their robots"),
         ("motion-lab-verify.1", "motion-lab verify run.mcap"),
         ("motion-lab.1", "3  an input file is missing or wrong"),
         ("motion-lab-grade.1", "limits: (ticks: 200, contacts: 0"),

@@ -38,7 +38,7 @@ const LINES: [(&str, &[&str], &[&str]); 12] = [
     ("record --wo", &["--world"], &["--robot"]),
     ("record --world ", &["apartment", "workbench", "lot", "yard.ron"], &["--seed"]),
     ("record --robot ", &["Rusty", "Reach", "Hitch"], &["choset", "yard.ron"]),
-    ("capture --widget ", &["dashboard", "anatomy", "atlas", "cspace"], &["lot", "yard.ron"]),
+    ("capture --widget ", &["dashboard", "anatomy", "atlas", "cspace", "plan"], &["lot", "yard.ron"]),
     ("capture --theme ", &["light", "dark"], &["lot", "yard.ron"]),
     ("query distance --robot ", &["rusty", "choset", "reach3", "Hitch"], &["lot", "yard.ron"]),
     ("export run.mcap --format ", &["jsonl", "csv", "svg", "png", "gif", "foxglove"], &["ros", "yard.ron"]),

@@ -22,13 +22,15 @@ fn size(path: &Path) -> (u32, u32) {
 fn every_widget_is_captured_in_both_themes_the_same_each_time() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
-    let widgets: [&[&str]; 6] = [
+    let widgets: [&[&str]; 8] = [
         &["dashboard", "--tick", "40", "--seed", "7"],
         &["anatomy"],
         &["anatomy", "--tab", "witness", "--robot", "hitch"],
         &["atlas", "--world", "apartment", "--grid", "0.2"],
         &["atlas", "--world", "lot", "--teleport", "5.5,5,1.2"],
         &["cspace", "--cells", "6", "--annulus"],
+        &["plan", "--seed", "7"],
+        &["plan", "--robot", "rusty", "--q", "9,5", "--goal", "9.75,6.25", "--planner", "rrt"],
     ];
     for widget in widgets {
         let mut seen = Vec::new();
@@ -137,6 +139,59 @@ fn a_gif_shows_a_robot_of_the_run_beside_its_point_and_the_atlas_with_its_robots
 }
 
 #[test]
+fn a_plan_is_the_one_that_plan_finds_and_as_gif_it_grows() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    let (svg, gif) = (at("p.svg"), at("p.gif"));
+    // the chapter's question, unless another is asked
+    let other: &[&str] = &["--robot", "rusty", "--planner", "rrt", "--seed", "3"];
+    let places = [["--from", "9,5", "--to", "9.75,6.25"], ["--q", "9,5", "--goal", "9.75,6.25"]];
+    for (plan, capture) in [
+        (vec!["--robot", "Reach", "--from", "2.0,0", "--to", "3.1,0"], vec![]),
+        ([other, &places[0]].concat(), [other, &places[1]].concat()),
+    ] {
+        let found = crate::cli::json(&run(&[&["plan", "--json"], &plan[..]].concat()).done());
+        run(&[&["capture", "--widget", "plan", "-o", &svg], &capture[..]].concat()).done();
+        let drawn = fs::read_to_string(&svg).unwrap();
+        let length = format!("length {:.3} ", found["length"].as_f64().unwrap());
+        assert!(drawn.contains(&length) && drawn.contains("configuration space"), "{length}: {plan:?}");
+        assert!(drawn.contains(&format!("{} iterations", found["iterations"])), "{found}");
+    }
+    run(&["capture", "--widget", "plan", "--width", "320", "-o", &gif]).done();
+    let bytes = fs::read(&gif).unwrap();
+    let mut decoder = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+    let mut pictures = 0;
+    while decoder.read_next_frame().unwrap().is_some() {
+        pictures += 1;
+    }
+    let found =
+        crate::cli::json(&run(&["plan", "--json", "--robot", "Reach", "--from", "2.0,0", "--to", "3.1,0"]).done());
+    assert_eq!(pictures, found["iterations"].as_u64().unwrap().min(72), "a picture for each iteration");
+    assert!(String::from_utf8_lossy(&bytes).contains("Planner: rrt-connect; Seed: 2005"));
+}
+
+#[test]
+fn names_are_there_where_they_are_asked_for_and_lengths_have_units() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("a.svg");
+    let out = file.to_str().unwrap();
+    for widget in [&["dashboard", "--tick", "0"][..], &["atlas"], &["atlas", "--seed", "7", "--tick", "3"]] {
+        for names in [&[][..], &["--names"]] {
+            run(&[&["capture", "--widget"], widget, names, &["-o", out]].concat()).done();
+            let svg = fs::read_to_string(&file).unwrap();
+            assert_eq!(svg.contains("the shelf</text>"), !names.is_empty(), "{widget:?} {names:?}");
+        }
+    }
+    let teleport = ["capture", "--widget", "atlas", "--world", "lot", "--teleport", "5.5,5,1.2", "-o", out];
+    run(&teleport).done();
+    let svg = fs::read_to_string(&file).unwrap();
+    assert!(svg.contains(" m away, and nothing nearer than 0.") && svg.contains(" m is free"));
+    let teleport = ["capture", "--widget", "atlas", "--world", "workbench", "--teleport", "2.55,0", "-o", out];
+    run(&teleport).done();
+    assert!(fs::read_to_string(&file).unwrap().contains(" rad away, and nothing nearer than 0."));
+}
+
+#[test]
 fn what_is_said_of_the_arm_is_not_said_of_the_car() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("c.svg");
@@ -159,7 +214,7 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
     let (svg, gif, bmp) = (at("a.svg"), at("a.gif"), at("a.bmp"));
-    let refused: [(&[&str], &str); 18] = [
+    let refused: [(&[&str], &str); 22] = [
         (&["dashboard", "--tick", "99999", "-o", &svg], "there is no tick 99999"),
         (&["dashboard", "--from", "9", "--to", "3", "-o", &gif], "there is no tick 9"),
         (&["anatomy", "-o", &gif], "query anatomy is one frozen scene"),
@@ -170,7 +225,11 @@ fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
         (&["atlas", "--grid", "1e-9", "-o", &svg], "more than"),
         (&["atlas", "--teleport", "1,2,3", "-o", &svg], "--teleport needs a world"),
         (&["cspace", "--tab", "swept", "-o", &svg], "--tab is only valid for the anatomy"),
-        (&["anatomy", "--seed", "7", "-o", &svg], "--seed is only valid for dashboard, atlas and cspace"),
+        (&["anatomy", "--seed", "7", "-o", &svg], "--seed is only valid for dashboard, atlas, cspace and plan"),
+        (&["anatomy", "--names", "-o", &svg], "--names is only valid for dashboard and atlas"),
+        (&["cspace", "--goal", "1,2", "-o", &svg], "--goal or --planner is only valid for plan"),
+        (&["plan", "--robot", "rusty", "-o", &svg], "where the path is to end is not said"),
+        (&["plan", "--goal", "2.55,0", "-o", &svg], "goal"),
         (&["dashboard", "--every", "2", "-o", &svg], "--from, --to and --every is only valid for GIF"),
         (&["dashboard", "--tick", "2", "-o", &gif], "--tick is only valid for SVG and PNG"),
         (&["cspace", "--seed", "7", "--q", "0,0", "-o", &svg], "--q is only valid for figures that do not show a run"),

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use motion_lab_core::collision::{Problem, Scene};
-use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2};
+use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::greater;
 use motion_lab_core::planning::hybrid::HybridAStar;
@@ -67,6 +67,12 @@ impl Task {
             noise: None,
             checker: CheckerName::EXACT,
         }
+    }
+
+    /// The chapter's question: the arm of the Workbench round the post.
+    pub fn round_the_post() -> Self {
+        let ends = [[2.0, 0.0], [3.1, 0.0]].map(|q| AnyConfiguration::T2(Tn(q)));
+        Self::new("Reach", AnyRobot::Reach(Reach::workbench()), World::workbench(), ends)
     }
 
     /// The world with the robot that plays alone in it, and that robot's name: the resident of the task's name, else

@@ -1,6 +1,7 @@
 //! `capture`: what a widget shows, without a display, as SVG, PNG or GIF.
 
 mod args;
+mod plan;
 mod run;
 mod widgets;
 
@@ -8,7 +9,7 @@ pub use args::Capture;
 use motion_lab::manifest::Widget;
 use std::path::Path;
 
-use motion_lab::capture::{CaptureError, CaptureForm};
+use motion_lab::capture::{CaptureError, CaptureForm, Paper};
 
 use crate::cli::support::input::is_dash;
 use crate::cli::support::paper::{not_written, write_picture};
@@ -21,7 +22,11 @@ impl Capture {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let paper = self.paper.paper();
         let form = self.form()?;
-        let of_run = self.widget == Widget::Dashboard || self.run.asked(form);
+        let of_run = match self.widget {
+            Widget::Dashboard => true,
+            Widget::Plan => false,
+            _ => self.run.asked(form),
+        };
         if self.widget == Widget::Anatomy && form == CaptureForm::Gif {
             return Err(self.failure(CaptureError::Frozen));
         }
@@ -29,18 +34,25 @@ impl Capture {
             return Err(Failure::usage(format!("{option} is only valid for {place}"), "Leave it out."));
         }
         let target = Target::of(&self.output)?;
-        if of_run {
+        let outcome = if of_run {
             self.of_run(form, &paper, &target)?;
+            Outcome::Done
         } else {
-            let captured = match self.widget {
-                Widget::Atlas => widgets::atlas(&self.scene, &paper)?,
-                Widget::Cspace => widgets::cspace(&self.scene)?,
-                // `plan` is not among the names: `motion-lab plan` draws its own
-                Widget::Anatomy | Widget::Dashboard | Widget::Plan => widgets::anatomy(&self.scene)?,
-            };
-            write_picture(&captured, &paper, form, &target)?;
-        }
+            self.of_scene(form, &paper, &target)?
+        };
         target.finish(data)?;
+        Ok(outcome)
+    }
+
+    /// Writes what a widget shows without a run.
+    fn of_scene(&self, form: CaptureForm, paper: &Paper, target: &Target) -> Result<Outcome, Failure> {
+        let captured = match self.widget {
+            Widget::Plan => return self.of_plan(form, paper, target),
+            Widget::Atlas => widgets::atlas(&self.scene, self.run.names, paper)?,
+            Widget::Cspace => widgets::cspace(&self.scene)?,
+            Widget::Anatomy | Widget::Dashboard => widgets::anatomy(&self.scene)?,
+        };
+        write_picture(&captured, paper, form, target)?;
         Ok(Outcome::Done)
     }
 
@@ -66,27 +78,29 @@ impl Capture {
 
     /// The first option given for which the widget or the file format has no use, and what it goes with.
     fn astray(&self, form: CaptureForm, of_run: bool) -> Option<(&'static str, &'static str)> {
-        use Widget::{Anatomy, Atlas, Cspace, Dashboard};
+        use Widget::{Anatomy, Atlas, Cspace, Dashboard, Plan};
         let (run, scene) = (&self.run, &self.scene);
         let runs: &[Widget] = &[Dashboard, Atlas, Cspace];
-        let options: [(&str, bool, &[Widget], &str); 17] = [
+        let with_plan = "dashboard, atlas, cspace and plan";
+        let options: [(&str, bool, &[Widget], &str); 18] = [
             ("--run", run.run.is_some(), runs, "dashboard, atlas and cspace"),
-            ("--seed", run.seed.is_some(), runs, "dashboard, atlas and cspace"),
+            ("--seed", run.seed.is_some(), &[Dashboard, Atlas, Cspace, Plan], with_plan),
             ("--tick", run.tick.is_some(), runs, "dashboard, atlas and cspace"),
             ("--from", run.from.is_some(), runs, "dashboard, atlas and cspace"),
             ("--to", run.to.is_some(), runs, "dashboard, atlas and cspace"),
             ("--every", run.every.is_some(), runs, "dashboard, atlas and cspace"),
-            ("--names", run.names, &[Dashboard], "the dashboard"),
+            ("--names", run.names, &[Dashboard, Atlas], "dashboard and atlas"),
             ("--scan", run.scan, &[Dashboard], "the dashboard"),
             ("--tab", scene.tab.is_some(), &[Anatomy], "the anatomy"),
-            ("--robot", scene.robot.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
-            ("--q", scene.q.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
+            ("--robot", scene.robot.is_some(), &[Anatomy, Cspace, Plan], "anatomy, cspace and plan"),
+            ("--q", scene.q.is_some(), &[Anatomy, Cspace, Plan], "anatomy, cspace and plan"),
             ("--step", scene.step.is_some(), &[Anatomy, Cspace], "anatomy and cspace"),
             ("--annulus", scene.annulus, &[Anatomy, Cspace], "anatomy and cspace"),
             ("--cells or --budget", scene.cells.or(scene.budget).is_some(), &[Cspace], "cspace"),
             ("--grid", scene.grid.is_some(), &[Atlas], "the atlas"),
             ("--teleport", scene.teleport.is_some(), &[Atlas], "the atlas"),
-            ("--world", scene.world.is_some(), &[Anatomy, Atlas, Cspace], "anatomy, atlas and cspace"),
+            ("--goal or --planner", scene.goal.is_some() || scene.planner.is_some(), &[Plan], "plan"),
+            ("--world", scene.world.is_some(), &[Anatomy, Atlas, Cspace, Plan], "anatomy, atlas, cspace and plan"),
         ];
         let stray = options.into_iter().find(|(_, given, widgets, _)| *given && !widgets.contains(&self.widget));
         // a run has its robots' configurations already

@@ -55,7 +55,7 @@ impl Capture {
             Widget::Cspace => {
                 Subject::Cspace { world, robot, kind, finest: scene.cells.unwrap_or(7), annulus: scene.annulus }
             }
-            Widget::Atlas => Subject::Atlas { world, names: true },
+            Widget::Atlas => Subject::Atlas { world, names: self.run.names },
             Widget::Dashboard | Widget::Anatomy | Widget::Plan => {
                 Subject::Dashboard { names: self.run.names, scan: self.run.scan }
             }

@@ -2,7 +2,7 @@
 
 use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
 use motion_lab::atlas::{Atlas, GridLayer, TeleportRefusal};
-use motion_lab::capture::{self, AtlasSheet, Captured, Paper};
+use motion_lab::capture::{self, AtlasSheet, Captured, Paper, unit};
 use motion_lab::cspace::{CellMap, Slice};
 use motion_lab::picture::{Item, readout};
 use motion_lab::robots::Robot;
@@ -44,8 +44,8 @@ fn judge(map: &mut CellMap, budget: u32) {
 /// Number of cells judged between two looks at the progress.
 const PIECE: u32 = 1000;
 
-/// Worlds with the names of everything in them.
-pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
+/// Worlds, with the names of everything in them if `named`.
+pub fn atlas(args: &SceneArgs, named: bool, paper: &Paper) -> Result<Captured, Failure> {
     let worlds: Vec<World> = match &args.world {
         Some(name) => vec![find_world(name)?],
         None => World::built_in_names().into_iter().map(find_world).collect::<Result<_, _>>()?,
@@ -66,8 +66,9 @@ pub fn atlas(args: &SceneArgs, paper: &Paper) -> Result<Captured, Failure> {
             None => (Vec::new(), Vec::new()),
         });
     }
-    let sheet =
-        |((atlas, grid), (over, readout))| AtlasSheet { atlas, grid, over, readout, names: args.teleport.is_none() };
+    // a refusal has labels of its own where names would be
+    let names = named && args.teleport.is_none();
+    let sheet = |((atlas, grid), (over, readout))| AtlasSheet { atlas, grid, over, readout, names };
     let sheets: Vec<AtlasSheet<'_>> =
         atlases.iter().zip(grids.iter().map(Option::as_ref)).zip(notes).map(sheet).collect();
     Ok(capture::atlas(&sheets, paper.width_px()))
@@ -80,12 +81,14 @@ fn teleport(atlas: &mut Atlas, to: &NumberList) -> Result<(Vec<Item>, Vec<String
     let to = &to.values(resident.robot.about().lengths).map_err(usage)?;
     let wrong = || usage(format!("{}: {} is at {}", counted(to.len(), "number"), resident.name, resident.q));
     let wanted = resident.q.with_coordinates(to).filter(|q| resident.robot.check(q).is_ok()).ok_or_else(wrong)?;
+    let unit = unit(&resident.robot);
     Ok(match atlas.teleport(0, wanted) {
         Some(Err(refusal)) => {
             let mut said = vec![refusal.to_string()];
             if let TeleportRefusal::Overlap { nearest: Some(offer), .. } = &refusal {
                 said.push(format!("nearest free: {}", readout(&offer.q.to_string())));
-                said.push(format!("{:.4} away, and nothing nearer than {:.4} is free", offer.distance, offer.proven));
+                let [away, nothing] = [offer.distance, offer.proven];
+                said.push(format!("{away:.4} {unit} away, and nothing nearer than {nothing:.4} {unit} is free"));
             }
             (atlas.refusal_items(0, &wanted, &refusal), said)
         }

@@ -55,8 +55,8 @@ pub fn write(
     Ok(())
 }
 
-/// The slice of the configuration space through the start, its cells judged.
-fn background(task: &Task) -> Option<CellMap> {
+/// The slice of the configuration space through the start, its cells judged; `None` where there is no such slice.
+pub fn background(task: &Task) -> Option<CellMap> {
     let checker = Checker::new(Arc::clone(&task.scene), task.planned());
     let mut map = CellMap::new(Slice::through(&checker, &task.start).ok()?, FINEST);
     map.refine(u32::MAX);

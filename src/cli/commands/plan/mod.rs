@@ -5,13 +5,13 @@ mod advice;
 mod answer;
 mod args;
 mod compare;
-mod drawing;
+pub mod drawing;
 mod exact;
-mod film;
+pub mod film;
 mod play;
 mod rounds;
 mod targets;
-mod task;
+pub mod task;
 
 use std::time::Instant;
 

@@ -11,7 +11,7 @@ use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::picture::{Item, Picture, Role, world as picture_of};
 use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
 use motion_lab_core::random::Seed;
-use motion_lab_core::robots::{AnyRobot, Robot};
+use motion_lab_core::robots::Robot;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::manifest::HintTask;
 use motion_lab_sim::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
@@ -91,9 +91,7 @@ pub struct PlanState {
 impl Default for PlanState {
     /// The chapter's question: round the post on the Workbench.
     fn default() -> Self {
-        let ends = [[2.0, 0.0], [3.1, 0.0]].map(|q| AnyConfiguration::T2(motion_lab_core::configuration::Tn(q)));
-        let arm = AnyRobot::Reach(motion_lab_core::robots::Reach::workbench());
-        Self::of(Task::new("Reach", arm, World::workbench(), ends))
+        Self::of(Task::round_the_post())
     }
 }
 
