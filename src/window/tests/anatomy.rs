@@ -273,8 +273,13 @@ fn a_term_lights_what_the_picture_draws_of_it_and_a_part_of_the_picture_its_term
     let lit = |h: &Harness<'_, Lab>| interface(h).lit;
     assert_eq!(lit(&harness), None);
     // by keyboard
-    for (term, role) in [("O: obstacle", Role::Obstacle), ("R(q): robot", Role::Robot), ("b*: witness", Role::Witness)]
-    {
+    for (term, role) in [
+        ("O: obstacle", Role::Obstacle),
+        ("R(q): robot", Role::Robot),
+        ("a*: robot", Role::Robot),
+        ("b*: obstacle", Role::Obstacle),
+        ("dist: witness", Role::Witness),
+    ] {
         harness.get_by_label(term).focus();
         harness.run_steps(3);
         assert_eq!(lit(&harness), Some(role), "{term}");

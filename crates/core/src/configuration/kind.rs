@@ -92,8 +92,8 @@ impl RobotKind {
         start: "three: x, y, theta",
         spaces: &[Space {
             coordinates: 3,
-            formula: "q = (x, y) \u{2208} R^2",
-            words: "A point of the plane: a disc looks the same whichever way it faces. The simulator keeps the heading too.",
+            formula: "q = (x, y, \u{3b8}) \u{2208} SE(2)",
+            words: "Position and heading. To the obstacles it is a point of the plane: a disc looks the same whichever way it faces.",
         }],
         drives: true,
         takes: &[Drive, Teleport, Release],

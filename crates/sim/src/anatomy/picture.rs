@@ -106,10 +106,10 @@ impl Anatomy {
                     };
                     places.reduce(|best, at| if room(&at) > room(&best) + 1e-9 { at } else { best }).unwrap_or(p)
                 };
-                for (part, at) in [("a*", beside(a)), ("b*", beside(b))] {
+                for (part, at, role) in [("a*", beside(a), Role::Robot), ("b*", beside(b), Role::Obstacle)] {
                     let (text, anchor, face) = (part.to_owned(), Anchor::Centre, Face::Sans);
                     let drawing = Drawing::Label { at, text, anchor, face, size_px: 14.0, plate: true };
-                    items.push(Item::new(format!("witness/1/{part}"), part, Role::Witness, drawing));
+                    items.push(Item::new(format!("witness/1/{part}"), part, role, drawing));
                 }
             }
         }
@@ -193,22 +193,22 @@ fn contact_item(pair: &NearestPair) -> Item {
     Item::new("contact", "a point in common", Role::Goal, cross)
 }
 
-/// The segment between two nearest points and its rings; with `feature` also the obstacle's edge on which it ends.
+/// The segment between two nearest points and its rings, each of the role of what it lies on; with `feature` also the
+/// obstacle's edge on which it ends.
 fn witness_items(number: usize, pair: &NearestPair, feature: bool) -> Vec<Item> {
     let w = &pair.witness;
     let item =
-        |part: &str, name: &str, drawing| Item::new(format!("witness/{number}/{part}"), name, Role::Witness, drawing);
+        |part: &str, name: &str, role, drawing| Item::new(format!("witness/{number}/{part}"), name, role, drawing);
     let mut items = Vec::new();
     if let (true, Feature::Edge(a, b)) = (feature, pair.on_obstacle) {
-        items.push(item("edge", "the edge it lies on", Drawing::segment(a, b)).stroked(Line::solid(3.0)));
+        items
+            .push(item("edge", "the edge it lies on", Role::Witness, Drawing::segment(a, b)).stroked(Line::solid(3.0)));
     }
-    items.push(
-        item("segment", "the shortest way", Drawing::segment(w.on_robot, w.on_obstacle)).stroked(Line::solid(2.0)),
-    );
-    for (part, at) in [("a", w.on_robot), ("b", w.on_obstacle)] {
-        let ring = Drawing::Mark { at, glyph: Glyph::Ring, radius_px: 3.5 };
-        items.push(item(part, if part == "a" { "a* on the robot" } else { "b* on the obstacle" }, ring));
-    }
+    let way = Drawing::segment(w.on_robot, w.on_obstacle);
+    items.push(item("segment", "the shortest way", Role::Witness, way).stroked(Line::solid(2.0)));
+    let ring = |at| Drawing::Mark { at, glyph: Glyph::Ring, radius_px: 3.5 };
+    items.push(item("a", "a* on the robot", Role::Robot, ring(w.on_robot)));
+    items.push(item("b", "b* on the obstacle", Role::Obstacle, ring(w.on_obstacle)));
     items
 }
 

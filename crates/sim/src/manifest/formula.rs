@@ -203,6 +203,7 @@ mod tests {
     use motion_lab_core::collision::{Checker, Collision, Scene};
     use motion_lab_core::configuration::RobotKind;
     use motion_lab_core::robots::{AnyRobot, Drivable, Hitch, Reach, Rusty};
+    use motion_lab_core::sensors::RangeSensor;
 
     #[test]
     fn a_product_and_a_functions_argument_stand_apart_in_mathml() {
@@ -277,7 +278,9 @@ mod tests {
             ("Checker::edge", name_of(Checker::<Reach<2>>::edge)),
             ("Rusty::drive", name_of(<Rusty as Drivable>::drive)),
             ("Reach::tip", name_of(Reach::<2>::tip)),
+            ("Reach::fk", name_of(Reach::<2>::fk)),
             ("Reach::ik", name_of(Reach::<2>::ik)),
+            ("RangeSensor::scan", name_of(RangeSensor::scan)),
             ("AnyRobot::annulus", name_of(AnyRobot::annulus)),
             ("Hitch::step", name_of(Hitch::step)),
         ];
@@ -311,7 +314,8 @@ mod tests {
     fn each_robot_has_the_space_of_its_type() {
         let space = |kind: &RobotKind, coordinates| Formula::of(kind.space(coordinates).unwrap());
         let written = |kind, coordinates| space(kind, coordinates).0.iter().map(|t| t.text).collect::<String>();
-        assert_eq!(written(&RobotKind::RUSTY, 3), "q = (x, y) \u{2208} R2");
+        // over a Pose2 stands its space
+        assert_eq!(written(&RobotKind::RUSTY, 3), "q = (x, y, \u{3b8}) \u{2208} SE(2)");
         assert_eq!(written(&RobotKind::REACH, 2), "q = (\u{3b8}1, \u{3b8}2) \u{2208} T2");
         assert_eq!(written(&RobotKind::HITCH, 3), "q = (x, y, \u{3b8}) \u{2208} SE(2)");
         assert!(written(&RobotKind::HITCH, 4).ends_with("SE(2) \u{d7} S1"));

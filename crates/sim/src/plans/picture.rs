@@ -20,7 +20,7 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
         items.extend(footprint(&format!("on the way/{i}"), "on the way", &robot.footprint(q), Role::Path, 0.12));
     }
     let [start, goal] = drawn.ends;
-    items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Free, 0.4));
+    items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Goal, 0.4));
     items.extend(faced("start", "the start", robot, &start));
     if !drawn.path.is_empty() {
         items.push(path(vec![way(&drawn.path)]));
@@ -109,7 +109,7 @@ pub fn space_items(slice: &Slice, drawn: &Drawn) -> Vec<Item> {
         let cross = Drawing::Mark { at: point(slice, &rejected.at), glyph: Glyph::Cross, radius_px: 5.0 };
         items.push(Item::new("rejected/at", "where it hits", Role::Goal, cross));
     }
-    let ends = [("goal", "the goal", Role::Free), ("start", "the start", Role::Robot)];
+    let ends = [("goal", "the goal", Role::Goal), ("start", "the start", Role::Robot)];
     for ((id, name, role), q) in ends.into_iter().zip([&drawn.ends[1], &drawn.ends[0]]) {
         let dot = Drawing::Mark { at: point(slice, q), glyph: Glyph::Handle, radius_px: 5.5 };
         items.push(Item::new(id, format!("{name}: {q}"), role, dot));

@@ -215,6 +215,11 @@ fn the_last_drive_mode_that_is_written_holds_and_the_script_does_not_grow() {
         DriveMode { manual: true, channels: [5, 0], target: None, refusals: 0 };
     settle(world);
     assert_eq!(refused(world).len(), 2);
+    // nor has it any on its way
+    *world.get_mut::<DriveMode<Reach<2>>>(d).unwrap() =
+        DriveMode { manual: true, channels: [5, 0], target: Some(T2::new(0.75, 0.5)), refusals: 0 };
+    settle(world);
+    assert_eq!(refused(world).len(), 1);
     assert_eq!(world.resource::<PendingInput>().script().events.len(), 5);
 }
 

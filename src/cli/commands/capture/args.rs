@@ -94,8 +94,8 @@ pub struct SceneArgs {
     /// Anatomy: the tab; all four when left out.
     #[arg(long, value_parser = one_of(Tab::ALL.map(|tab| (tab.name(), tab, ""))))]
     pub(super) tab: Option<Tab>,
-    /// Anatomy, cspace and plan: the robot, a resident of the world by its name, or one of a kind: rusty, reach, choset,
-    /// reach3, hitch. [default: choset; plan: Reach; of a run its first]
+    /// Anatomy, cspace and plan: the robot, a resident of the world by its name, or one of a kind: rusty, reach,
+    /// choset, reach3, hitch. [default: choset; plan: Reach; of a run its first]
     #[arg(long, value_name = "NAME|KIND", value_parser = RobotsAndKinds, hide_possible_values = true)]
     pub(super) robot: Option<String>,
     /// Anatomy, atlas, cspace and plan: a built-in world or the path of a world file. [default: the robot's home;

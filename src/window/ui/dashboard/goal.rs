@@ -115,7 +115,7 @@ impl ParkingExercise {
         let mut items = Vec::new();
         for (id, name, pose, role) in [
             ("start", "where the trailer was", self.from, Role::Muted),
-            ("goal", "where the trailer is to be", self.trailer, Role::Free),
+            ("goal", "where the trailer is to be", self.trailer, Role::Goal),
         ] {
             let placed = Footprint::new([Part::new(pose, part.shape().clone())]);
             items.extend(footprint(&format!("{id}/trailer"), name, &placed, role, 0.0));
@@ -125,12 +125,12 @@ impl ParkingExercise {
         }
         let centre = self.trailer.position();
         let disc = Drawing::Disc { centre, radius: DISTANCE };
-        items.push(Item::new("goal/distance", "within 5 cm", Role::Free, disc).stroked(Line::solid(1.5)));
+        items.push(Item::new("goal/distance", "within 5 cm", Role::Goal, disc).stroked(Line::solid(1.5)));
         let end =
             |off: f64| Pose2 { theta: self.trailer.theta + off, ..self.trailer }.transform(Point2::new(-3.2, 0.0));
         let wedge = Drawing::Polyline(vec![end(-ANGLE), centre, end(ANGLE)]);
         let thin = Line::solid(1.0).dashed(Dash::Dashed);
-        items.push(Item::new("goal/angle", "within 0.05 rad", Role::Free, wedge).stroked(thin));
+        items.push(Item::new("goal/angle", "within 0.05 rad", Role::Goal, wedge).stroked(thin));
         items
     }
 

@@ -370,11 +370,7 @@ impl PlanState {
 
     /// Draws this from now on.
     pub(super) fn draw(&mut self, drawn: Drawn) {
-        let mut items = workspace_items(&self.task.robot, &drawn);
-        if self.task.scene.intersects(&self.task.robot.footprint(&self.task.goal)) {
-            // what is in contact is red, whatever it is
-            items.iter_mut().filter(|item| item.id.starts_with("goal")).for_each(|item| item.role = Role::Goal);
-        }
+        let items = workspace_items(&self.task.robot, &drawn);
         self.over = Arc::new(Picture::new("plan", self.task.world.bounds).with(items));
         (self.drawn, self.over_cells) = (drawn, None);
     }
