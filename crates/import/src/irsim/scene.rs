@@ -1,6 +1,6 @@
 //! Reads a subset of IR-SIM's YAML.
 
-use super::context::{IrContext, IrsimOptions, objects, unsupported};
+use super::context::{IrContext, IrRoom, IrsimOptions, objects, unsupported};
 use super::obstacle::obstacles;
 use super::robot::robots;
 use crate::yaml::{self, YamlNode};
@@ -44,7 +44,8 @@ fn read(text: &str, name: &str, options: IrsimOptions) -> Result<Imported, Impor
     let tree = yaml::read(text)?;
     let mut sections = tree.fields("")?;
     let world = sections.take("world").filter(|node| !node.is_null());
-    let mut scene = IrContext { draft: WorldDraft::default(), options, min: [0.0; 2], size: [10.0; 2] };
+    let (draft, room) = (WorldDraft::default(), IrRoom::default());
+    let mut scene = IrContext { draft, options, min: [0.0; 2], size: [10.0; 2], room };
     if let Some(world) = world {
         bounds(world, &mut scene)?;
     }
