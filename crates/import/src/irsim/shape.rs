@@ -4,8 +4,8 @@ use super::context::{IrContext, IrRoom, unsupported};
 use super::random_polygon::RandomPolygon;
 use crate::yaml::{Fields, YamlNode};
 use crate::{ImportError, ImportProblem};
-use motion_lab_core::geometry::{Point2, Pose2};
-use motion_lab_core::num::{greater, hypot, lesser};
+use motion_lab_core::geometry::{Aabb, Point2, Pose2};
+use motion_lab_core::num::{greater, hypot};
 use motion_lab_core::random::Stream;
 use motion_lab_core::worlds::{OutlineError, ShapeText, WorldProblem, Xy, convex_pieces};
 
@@ -227,11 +227,10 @@ fn is_crossed(points: &[Point2]) -> bool {
     matches!(convex_pieces(points), Err(OutlineError::Crossing { .. }))
 }
 
+/// The corners of the box around some points, counter-clockwise from the lower left.
 fn bounding_box(points: &[Point2]) -> [Point2; 4] {
-    let fold = |of: fn(&Point2) -> f64, pick: fn(f64, f64) -> f64| points.iter().map(of).reduce(pick).unwrap_or(0.0);
-    let (left, right) = (fold(|p| p.x, lesser), fold(|p| p.x, greater));
-    let (low, high) = (fold(|p| p.y, lesser), fold(|p| p.y, greater));
-    [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Point2::new(x, y))
+    let Aabb { min, max } = Aabb::around(points).unwrap_or(Aabb::new(Point2::origin(), Point2::origin()));
+    [min, Point2::new(max.x, min.y), max, Point2::new(min.x, max.y)]
 }
 
 fn flag(item: &str, key: &str, fields: &mut Fields) -> Result<bool, ImportError> {

@@ -58,6 +58,24 @@ impl StyleTable {
         let own = all.iter().find(|declaration| declaration.property == property)?;
         (!matches!(own.value.as_str(), "inherit" | "unset")).then_some(own.value.as_str())
     }
+
+    /// Whether `visibility` hides an element, if the one around it is hidden or not.
+    pub fn is_hidden(&self, node: Node, around: bool) -> bool {
+        const WORDS: [(&str, bool); 4] = [("hidden", true), ("collapse", true), ("visible", false), ("initial", false)];
+        self.keyword(node, "visibility", &WORDS).unwrap_or(around)
+    }
+
+    /// Whether a fill rule, `fill-rule` or `clip-rule`, is `evenodd`, if that of the element around is or is not.
+    pub fn is_even_odd(&self, node: Node, property: &str, around: bool) -> bool {
+        const WORDS: [(&str, bool); 3] = [("evenodd", true), ("nonzero", false), ("initial", false)];
+        self.keyword(node, property, &WORDS).unwrap_or(around)
+    }
+
+    /// What an element's own word stands for; `None` if it has none of these.
+    fn keyword(&self, node: Node, property: &str, words: &[(&str, bool)]) -> Option<bool> {
+        let own = self.own(node, property)?;
+        words.iter().find(|(word, _)| own.eq_ignore_ascii_case(word)).map(|(_, meaning)| *meaning)
+    }
 }
 
 fn style_sheets(document: &Document) -> Result<Vec<SheetRule>, ImportError> {
@@ -174,8 +192,8 @@ impl<'s> Inherited<'s> {
         new.stroke_opacity = own("stroke-opacity").and_then(ratio).unwrap_or(self.stroke_opacity);
         let width = own("stroke-width").and_then(|text| scale.length(text, Along::Both));
         new.stroke_width = width.unwrap_or(self.stroke_width);
-        new.hidden = own("visibility").map_or(self.hidden, |word| matches!(word, "hidden" | "collapse"));
-        new.even_odd = own("fill-rule").map_or(self.even_odd, |rule| rule == "evenodd");
+        new.hidden = styles.is_hidden(node, self.hidden);
+        new.even_odd = styles.is_even_odd(node, "fill-rule", self.even_odd);
         new
     }
 }

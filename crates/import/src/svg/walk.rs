@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use roxmltree::Node;
 
 use super::check::{Labels, attribute};
-use super::clips::{ClipRegion, ClipShape, ClipTable, Extent2};
+use super::clips::{ClipRegion, ClipShape, ClipTable};
 use super::lengths::{Along, LengthScale, ratio};
 use super::paint::Painter;
 use super::shapes::parts;
@@ -14,10 +14,9 @@ use super::transforms::{ReferenceBox, transform_list, transform_origin};
 use super::uses::{Targets, href, is_drawn, url_target};
 use super::viewport::{ViewRect, fit, view_box};
 use crate::draft::WorldDraft;
-use crate::planar::{Affine, CurvedPart, outline};
+use crate::planar::{Affine, CurvedPart, beyond, extent};
 use crate::{ImportError, ImportProblem};
-use motion_lab_core::geometry::Point2;
-use motion_lab_core::worlds::MAX_ITEMS;
+use motion_lab_core::geometry::{Aabb, Point2};
 
 /// A shape that shows.
 #[derive(Clone, Debug, PartialEq)]
@@ -269,6 +268,9 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         if !matches!(self.styles.own(node, "overflow"), Some("visible" | "auto")) {
             let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
             let ring = corners.map(|(x, y)| around.map.point(Point2::new(x, y))).to_vec();
+            if beyond(&[CurvedPart::ring(&ring)]).is_some() {
+                return self.note(node, |label| format!("{label} is left out: its viewport reaches too far"));
+            }
             let shape = ClipShape::new(vec![ring], false, Vec::new());
             let region = self.clips.add(ClipRegion { shapes: vec![shape], ..ClipRegion::default() });
             self.steps.push(WalkStep::Viewport { region, from: self.shapes.len() });
@@ -282,22 +284,13 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let of_box = match self.styles.own(node, "transform-box") {
             Some("fill-box" | "content-box") => {
                 let parts = parts(node, scale).ok()?.0;
-                let Extent2 { min, max } = self.extent(&parts)?;
+                let Aabb { min, max } = extent(&parts)?;
                 ReferenceBox { least: (min.x, min.y), size: (max.x - min.x, max.y - min.y) }
             }
             _ => ReferenceBox { least: (0.0, 0.0), size: scale.viewport },
         };
         let (x, y) = transform_origin(origin, scale, of_box)?;
         Some(Affine::translate(x, y).after(&map).after(&Affine::translate(-x, -y)))
-    }
-
-    /// The box around these parts.
-    pub fn extent(&self, parts: &[CurvedPart]) -> Option<Extent2> {
-        let rough = Extent2::of(parts.iter().map(|part| &part.start))?;
-        let tolerance = 1e-6 * (1.0 + (rough.max - rough.min).norm());
-        let mut room = 100 * MAX_ITEMS;
-        let outlines: Vec<_> = parts.iter().map(|part| outline(part, tolerance, &mut room)).collect::<Option<_>>()?;
-        Extent2::of(outlines.iter().flat_map(|outline| &outline.points))
     }
 }
 

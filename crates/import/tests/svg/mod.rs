@@ -4,6 +4,7 @@ mod clips;
 mod coordinates;
 mod fills;
 mod paint;
+mod reach;
 mod round;
 mod transforms;
 mod units;
