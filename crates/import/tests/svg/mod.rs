@@ -6,6 +6,7 @@ mod fills;
 mod paint;
 mod reach;
 mod round;
+mod styles;
 mod transforms;
 mod units;
 
