@@ -102,7 +102,7 @@ impl<'a> SvgObstacles<'a> {
             self.draft.note("what is smaller than a millimetre is left out");
             return Ok(());
         }
-        let name = self.name(&shape.id, "wall");
+        let name = self.name(shape.id, "wall");
         self.draft.world.wall(name, points.iter().map(xy).collect(), closed)
     }
 
@@ -166,7 +166,7 @@ impl<'a> SvgObstacles<'a> {
             _ => "polygon",
         };
         let text = if members.len() == 1 { members.remove(0) } else { ShapeText::Union(members) };
-        let name = self.name(&shape.id, stem);
+        let name = self.name(shape.id, stem);
         self.draft.world.solid(name, text)
     }
 

@@ -4,8 +4,9 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use super::check::{Labels, TEXT_LEFT_OUT, check};
 use super::obstacles::{MAX_COMPARISONS, MAX_LINE_POINTS, SvgObstacles};
+use super::paint::FONT_SIZE;
 use super::scan::scan;
-use super::style::{FONT_SIZE, StyleTable};
+use super::style::StyleTable;
 use super::uses::{Targets, check_uses, is_drawn, targets};
 use super::viewport::{SheetSize, sheet_size, view_box};
 use super::walk::SvgWalk;
@@ -122,7 +123,7 @@ impl SvgDrawing<'_> {
             room: MAX_LINE_POINTS,
         };
         for shape in &shapes {
-            obstacles.add(shape).map_err(|problem| ImportError::at(0, shape.id.as_str(), problem))?;
+            obstacles.add(shape).map_err(|problem| ImportError::at(0, shape.id, problem))?;
         }
         Ok(sheet)
     }

@@ -1,14 +1,12 @@
-//! What styles say of each element, and what of it is inherited.
+//! What styles say of each element.
 
 use std::cell::Cell;
-use std::cmp::Ordering;
 
 use roxmltree::{Document, Node};
 use simplecss::{AttributeOperator, Element, PseudoClass, Selector};
 
 use super::check::{at, attribute};
 use super::css::{SheetRule, StyleDeclaration, declarations, style_sheet};
-use super::lengths::{Along, LengthScale, ratio};
 use super::scan::MAX_ELEMENTS;
 use crate::{ImportError, ImportProblem};
 
@@ -203,84 +201,6 @@ impl Element for StyledElement<'_, '_> {
     fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
         matches!(class, PseudoClass::FirstChild) && self.prev_sibling_element().is_none()
     }
-}
-
-/// What an element inherits from those around it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Inherited<'s> {
-    pub fill: &'s str,
-    pub stroke: &'s str,
-    pub color: &'s str,
-    pub fill_opacity: f64,
-    pub stroke_opacity: f64,
-    /// The units of the element.
-    pub stroke_width: f64,
-    pub hidden: bool,
-    pub even_odd: bool,
-    pub font_size: f64,
-}
-
-/// Pixels, when nothing says otherwise.
-pub(crate) const FONT_SIZE: f64 = 16.0;
-
-impl Default for Inherited<'_> {
-    fn default() -> Self {
-        Inherited {
-            fill: "black",
-            stroke: "none",
-            color: "black",
-            fill_opacity: 1.0,
-            stroke_opacity: 1.0,
-            stroke_width: 1.0,
-            hidden: false,
-            even_odd: false,
-            font_size: FONT_SIZE,
-        }
-    }
-}
-
-impl<'s> Inherited<'s> {
-    /// What holds for an element, and is handed on to its children.
-    pub fn at(&self, node: Node, styles: &'s StyleTable, scale: &LengthScale) -> Self {
-        let own = |property: &str| styles.own(node, property);
-        let mut new = *self;
-        if let Some(size) = own("font-size") {
-            new.font_size = font_size(size, self.font_size, scale).unwrap_or(self.font_size);
-        }
-        let scale = LengthScale { font_size: new.font_size, ..*scale };
-        new.fill = own("fill").map_or(self.fill, |fill| if fill == "initial" { "black" } else { fill });
-        new.stroke = own("stroke").map_or(self.stroke, |stroke| if stroke == "initial" { "none" } else { stroke });
-        // a colour of the words `currentColor` is the parent's
-        new.color = own("color").filter(|c| !c.eq_ignore_ascii_case("currentcolor")).unwrap_or(self.color);
-        new.fill_opacity = own("fill-opacity").and_then(ratio).unwrap_or(self.fill_opacity);
-        new.stroke_opacity = own("stroke-opacity").and_then(ratio).unwrap_or(self.stroke_opacity);
-        let width = own("stroke-width").and_then(|text| scale.length(text, Along::Both));
-        new.stroke_width = width.unwrap_or(self.stroke_width);
-        new.hidden = styles.is_hidden(node, self.hidden);
-        new.even_odd = styles.is_even_odd(node, "fill-rule", self.even_odd);
-        new
-    }
-}
-
-/// A font's size, the parent's being known.
-fn font_size(text: &str, parent: f64, scale: &LengthScale) -> Option<f64> {
-    const WORDS: [(&str, f64); 7] = [
-        ("xx-small", 9.0),
-        ("x-small", 10.0),
-        ("small", 13.0),
-        ("medium", 16.0),
-        ("large", 18.0),
-        ("x-large", 24.0),
-        ("xx-large", 32.0),
-    ];
-    let word = WORDS.iter().find(|(word, _)| *word == text).map(|(_, size)| *size);
-    let relative = LengthScale { viewport: (parent, parent), font_size: parent, ..*scale };
-    let size = match text {
-        "larger" => Some(parent * 1.2),
-        "smaller" => Some(parent / 1.2),
-        _ => word.or_else(|| relative.length(text, Along::X)),
-    };
-    size.filter(|size| size.partial_cmp(&0.0) != Some(Ordering::Less))
 }
 
 #[cfg(test)]

@@ -7,9 +7,9 @@ use roxmltree::Node;
 use super::check::{Labels, attribute};
 use super::clips::{ClipRegion, ClipShape, ClipTable};
 use super::lengths::{Along, LengthScale, ratio};
-use super::paint::Painter;
+use super::paint::{FONT_SIZE, Inherited, Painter};
 use super::shapes::parts;
-use super::style::{FONT_SIZE, Inherited, StyleTable};
+use super::style::StyleTable;
 use super::transforms::{ReferenceBox, transform_list, transform_origin};
 use super::uses::{Targets, href, is_drawn, url_target};
 use super::viewport::{ViewRect, fit, view_box};
@@ -22,7 +22,7 @@ use motion_lab_core::geometry::{Aabb, Point2};
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DrawnShape<'a> {
     /// The id of its element, or of the `use` that repeats it; empty if there is none.
-    pub id: String,
+    pub id: &'a str,
     pub element: Node<'a, 'a>,
     pub parts: Vec<CurvedPart>,
     pub filled: bool,
@@ -37,7 +37,7 @@ pub(crate) struct DrawnShape<'a> {
 pub(crate) struct WalkContext<'s> {
     /// From the element's units to metres.
     pub map: Affine,
-    style: Inherited<'s>,
+    style: Inherited,
     viewport: (f64, f64),
     /// The id of the `use` that repeats the element.
     repeated_by: Option<&'s str>,
@@ -163,7 +163,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     fn styled(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
         let styles = self.styles;
         let own = |property: &str| styles.own(node, property);
-        let mut inner = WalkContext { style: around.style.at(node, styles, &scale_of(around)), ..*around };
+        let mut inner =
+            WalkContext { style: around.style.at(node, styles, &self.painter, &scale_of(around)), ..*around };
         if own("opacity").and_then(ratio).is_some_and(|opacity| opacity <= 0.0) {
             self.draft.note("what is drawn invisibly is left out");
             return Ok(());
@@ -204,7 +205,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     }
 
     fn shape(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
-        let (filled, stroked) = (self.painter.fills(&around.style), self.painter.strokes(&around.style));
+        let (filled, stroked) = (around.style.fills(), around.style.strokes());
         let is_line = node.tag_name().name() == "line";
         if around.style.hidden || !(filled && !is_line || stroked) {
             self.draft.note("what is drawn invisibly is left out");
@@ -214,7 +215,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         if is_cut {
             self.note(node, |label| format!("{label} is drawn up to a mistake in its path"));
         }
-        let id = around.repeated_by.or(attribute(node, "id")).unwrap_or_default().to_owned();
+        let id = around.repeated_by.or(attribute(node, "id")).unwrap_or_default();
         let parts = parts.iter().map(|part| part.mapped(&around.map)).collect();
         let (even_odd, clips) = (around.style.even_odd, Vec::new());
         let filled = filled && !is_line;
@@ -238,7 +239,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             ..*around
         };
         if target.tag_name().name() == "symbol" && is_drawn(&target) {
-            let style = inner.style.at(target, self.styles, &scale);
+            let style = inner.style.at(target, self.styles, &self.painter, &scale);
             return self.viewport(target, &WalkContext { style, ..inner }, (0.0, 0.0));
         }
         self.steps.push(WalkStep::Element(target, inner));
