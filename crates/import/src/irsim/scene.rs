@@ -34,8 +34,9 @@ const IGNORED: [&str; 11] = [
 /// numbers.
 ///
 /// # Errors
-/// [`ImportError`] names line and item: unknown keys and shapes; and, unless they are to be left out, obstacles that
-/// move, robots that drive otherwise, grid maps.
+/// [`ImportError`] names line and item: unknown keys and shapes; more than 100,000 objects and sensors in all, left out
+/// or not; and, unless they are to be left out, obstacles that move, robots that drive otherwise, grid maps, and what
+/// gives the obstacles more than 400,000 points or takes too many tries at random.
 pub fn irsim(file: &str, text: &str, name: &str, options: IrsimOptions) -> Result<Imported, ImportError> {
     read(text, name, options).map_err(|error| error.of(file))
 }
