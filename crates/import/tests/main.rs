@@ -5,6 +5,7 @@ mod cells;
 mod drawing;
 mod images;
 mod irsim;
+mod irsim_limits;
 mod movingai;
 mod svg;
 

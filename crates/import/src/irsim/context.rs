@@ -3,6 +3,16 @@
 use crate::yaml::{Fields, YamlNode, YamlValue};
 use crate::{ImportError, ImportProblem, WorldDraft};
 use motion_lab_core::random::{Seed, Stream};
+use motion_lab_core::worlds::{MAX_ITEMS, WorldProblem};
+
+/// Largest number of points of all obstacles of a scene.
+const MAX_POINTS: usize = 4 * MAX_ITEMS;
+
+/// What all that a scene draws at random may take, in comparisons of two poses or two edges.
+const MAX_DRAWS: usize = 200_000_000;
+
+/// What it takes to draw a pose or a shape before it is compared, in comparisons.
+const DRAW: usize = 8;
 
 /// How a world of IR-SIM is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +38,46 @@ pub(crate) struct IrContext {
     pub min: [f64; 2],
     /// The width and the height of the world.
     pub size: [f64; 2],
+    /// What may still be made of it.
+    pub room: IrRoom,
+}
+
+/// How much may still be made of a scene: a short entry may stand for very many objects.
+pub(crate) struct IrRoom {
+    objects: usize,
+    points: usize,
+    draws: usize,
+}
+
+impl Default for IrRoom {
+    fn default() -> Self {
+        IrRoom { objects: MAX_ITEMS, points: MAX_POINTS, draws: MAX_DRAWS }
+    }
+}
+
+impl IrRoom {
+    /// Takes the room of some objects, left out or not, or of sensors on them.
+    pub fn take_objects(&mut self, number: usize) -> Result<(), WorldProblem> {
+        self.objects = self.objects.checked_sub(number).ok_or(WorldProblem::TooMany { what: "objects" })?;
+        Ok(())
+    }
+
+    /// Takes the room of some points of obstacles.
+    pub fn take_points(&mut self, number: usize) -> Result<(), ImportProblem> {
+        let left = self.points.checked_sub(number);
+        self.points = left
+            .ok_or_else(|| ImportProblem::Unsupported(format!("obstacles of more than {MAX_POINTS} points in all")))?;
+        Ok(())
+    }
+
+    /// Takes the room of one pose or shape that is drawn and compared so often.
+    pub fn take_draw(&mut self, comparisons: usize) -> Result<(), ImportProblem> {
+        let left = self.draws.checked_sub(DRAW + comparisons);
+        self.draws = left.ok_or_else(|| {
+            ImportProblem::Unsupported("what is drawn at random takes too many tries in the scene as a whole".into())
+        })?;
+        Ok(())
+    }
 }
 
 impl IrContext {

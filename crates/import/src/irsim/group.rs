@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::context::{IrContext, unsupported};
-use crate::ImportError;
+use super::context::{IrContext, IrRoom, unsupported};
 use crate::yaml::{Fields, YamlNode, YamlValue};
+use crate::{ImportError, ImportProblem};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::{hypot, lesser, sin_cos};
 use motion_lab_core::random::Stream;
@@ -31,9 +31,13 @@ pub(crate) struct IrGroup {
 }
 
 impl IrGroup {
-    /// Takes `number`, `distribution` and `state` of an entry.
-    pub fn take(item: &str, fields: &mut Fields, scene: &mut IrContext) -> Result<IrGroup, ImportError> {
-        let number = fields.take("number").map_or(Ok(1), |node| count(&format!("{item}.number"), node))?;
+    /// Takes `number`, `distribution` and `state` of an entry in this line, and the room that its objects take.
+    pub fn take(item: &str, line: usize, fields: &mut Fields, scene: &mut IrContext) -> Result<IrGroup, ImportError> {
+        let at = format!("{item}.number");
+        let node = fields.take("number");
+        let number = node.map_or(Ok(1), |node| count(&at, node))?;
+        let line = node.map_or(line, |node| node.line);
+        scene.room.take_objects(number).map_err(|problem| ImportError::at(line, at, problem))?;
         let state = fields.take("state").filter(|node| !node.is_null());
         let at = format!("{item}.distribution");
         let Some(node) = fields.take("distribution").filter(|node| !node.is_null()) else {
@@ -49,7 +53,7 @@ impl IrGroup {
             "random" if number > MAX_DRAWN => {
                 Err(unsupported(node, at, format!("{number} at random; at most {MAX_DRAWN}")))
             }
-            "random" => random(item, number, &mut distribution, scene),
+            "random" => random(item, node.line, number, &mut distribution, scene),
             name => Err(unsupported(node, at, format!("{name}; known are manual, circle and random"))),
         }
     }
@@ -99,7 +103,13 @@ fn circle(item: &str, number: usize, fields: &mut Fields, scene: &IrContext) -> 
 }
 
 /// Objects at random poses in a range.
-fn random(item: &str, number: usize, fields: &mut Fields, scene: &mut IrContext) -> Result<IrGroup, ImportError> {
+fn random(
+    item: &str,
+    line: usize,
+    number: usize,
+    fields: &mut Fields,
+    scene: &mut IrContext,
+) -> Result<IrGroup, ImportError> {
     let [width, height] = scene.size;
     let [x, y] = scene.min;
     let mut corner = |key: &str, usual: [f64; 3]| {
@@ -115,26 +125,37 @@ fn random(item: &str, number: usize, fields: &mut Fields, scene: &mut IrContext)
     };
     let objects = if number == 1 { "1 object is" } else { &format!("{number} objects are") };
     scene.draft.note(format!("{item}: {objects} drawn with seed {}; IR-SIM draws others", scene.options.seed));
-    let draw = |mut stream: Stream| drawn(&mut stream, number, [low, high], apart);
-    let (states, goals) = (draw(scene.stream(item)), draw(scene.stream(&format!("{item}/goal"))));
+    let streams = [scene.stream(item), scene.stream(&format!("{item}/goal"))];
+    let draw = |stream| drawn(stream, number, [low, high], apart, &mut scene.room);
+    let [states, goals] = streams.map(draw);
+    let of_item = |problem| ImportError::at(line, format!("{item}.distribution"), problem);
+    let (states, goals) = (states.map_err(of_item)?, goals.map_err(of_item)?);
     Ok(IrGroup { states, goals: Some(goals) })
 }
 
 /// Poses between two corners, at least so far apart if that can be had.
-fn drawn(stream: &mut Stream, number: usize, [low, high]: [[f64; 3]; 2], apart: f64) -> Vec<Pose2> {
+fn drawn(
+    mut stream: Stream,
+    number: usize,
+    [low, high]: [[f64; 3]; 2],
+    apart: f64,
+    room: &mut IrRoom,
+) -> Result<Vec<Pose2>, ImportProblem> {
     let mut poses: Vec<Pose2> = Vec::with_capacity(number);
     for _ in 0..number {
         let mut pose = Pose2::IDENTITY;
         for _ in 0..MAX_ATTEMPTS {
             let [x, y, theta] = [0, 1, 2].map(|i| stream.uniform(low[i], high[i]));
             pose = Pose2::new(x, y, theta);
-            if poses.iter().all(|other| hypot(other.x - x, other.y - y) >= apart) {
+            let near = poses.iter().position(|other| hypot(other.x - x, other.y - y) < apart);
+            room.take_draw(near.map_or(poses.len(), |i| i + 1))?;
+            if near.is_none() {
                 break;
             }
         }
         poses.push(pose);
     }
-    poses
+    Ok(poses)
 }
 
 /// Reads one pose, or a list of poses: `[x, y]` or `[x, y, theta]`. A fourth number, a car's steering angle, is

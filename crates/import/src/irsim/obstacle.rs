@@ -34,31 +34,31 @@ const IGNORED: [&str; 21] = [
 /// The keys that are known, for errors.
 const KNOWN: &str = "shape, state, number, distribution, name, unobstructed, and color, plot, description, role";
 
-/// Largest number of points of all obstacles of an entry.
-const MAX_POINTS: usize = 200_000;
-
 /// Adds the obstacles of an entry.
 pub(crate) fn obstacles(item: &str, node: &YamlNode, scene: &mut IrContext) -> Result<(), ImportError> {
     let mut fields = node.fields(item)?;
     refuse_moving(item, &mut fields)?;
-    let group = IrGroup::take(item, &mut fields, scene)?;
+    let group = IrGroup::take(item, node.line, &mut fields, scene)?;
     let shapes = shapes(item, &mut fields, group.states.len())?;
     let painted = fields.take("unobstructed");
     let painted = painted.map_or(Ok(false), |node| node.boolean(&format!("{item}.unobstructed")))?;
     let name = fields.take("name").filter(|node| !node.is_null());
     scene.note_ignored(&mut fields, "obstacle.", &IGNORED);
     scene.finish(fields, "obstacle.", KNOWN)?;
-    let points: usize = (0..group.states.len()).map(|i| of(&shapes, i).points()).sum();
-    if points > MAX_POINTS {
-        return Err(unsupported(node, item, format!("obstacles of more than {MAX_POINTS} points")));
-    }
+    let refuse = |problem| ImportError::at(node.line, item, problem);
+    scene.room.take_points(points(&shapes, group.states.len())).map_err(refuse)?;
     if shapes.iter().any(IrShape::is_random) {
         let seed = scene.options.seed;
         scene.draft.note(format!("{item}: its shapes are drawn with seed {seed}; IR-SIM draws others"));
     }
     let mut stream = scene.stream(&format!("{item}/shape"));
     for (i, state) in group.states.iter().enumerate() {
-        let shape = of(&shapes, i).drawn(&mut stream);
+        let shape = of(&shapes, i).drawn(&mut stream, &mut scene.room).map_err(refuse)?;
+        if painted && !shape.is_line() {
+            let kind = shape.kind();
+            scene.draft.note(format!("{item}, a {kind} that nothing collides with, is left out"));
+            continue;
+        }
         let name = match name {
             Some(name) => scene.draft.world.claim(name.each(i).text(&format!("{item}.name"))?),
             None => scene.draft.world.numbered(shape.stem(painted)),
@@ -71,6 +71,13 @@ pub(crate) fn obstacles(item: &str, node: &YamlNode, scene: &mut IrContext) -> R
 /// The shape of object number `i`: with fewer shapes than objects, the last one again.
 fn of(shapes: &[IrShape], i: usize) -> &IrShape {
     shapes.get(i).or(shapes.last()).unwrap_or(&IrShape::USUAL)
+}
+
+/// The number of points of so many objects: each shape is counted once, however many objects have the last one.
+fn points(shapes: &[IrShape], number: usize) -> usize {
+    let own = shapes.iter().take(number).map(IrShape::points).fold(0, usize::saturating_add);
+    let again = number.saturating_sub(shapes.len());
+    of(shapes, number).points().saturating_mul(again).saturating_add(own)
 }
 
 /// The shapes of the first objects, at most `number`.

@@ -52,6 +52,11 @@ impl RandomPolygon {
         })
     }
 
+    /// The largest number of vertices that are drawn.
+    pub fn max_vertices(&self) -> usize {
+        self.vertices[1] as usize
+    }
+
     /// Draws a polygon: vertices round a centre, at steps of the angle and at distances that differ.
     pub fn draw(&self, stream: &mut Stream) -> Vec<Point2> {
         let [left, low, right, high] = self.centre;

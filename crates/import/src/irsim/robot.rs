@@ -16,7 +16,7 @@ use std::f64::consts::{PI, TAU};
 pub(crate) fn robots(item: &str, node: &YamlNode, scene: &mut IrContext) -> Result<(), ImportError> {
     let mut fields = node.fields(item)?;
     let kind = kind(item, node, &mut fields)?;
-    let group = IrGroup::take(item, &mut fields, scene)?;
+    let group = IrGroup::take(item, node.line, &mut fields, scene)?;
     let goal = fields.take("goal").filter(|node| !node.is_null());
     let goals = match (&group.goals, goal) {
         (Some(goals), _) => goals.clone(),
@@ -29,18 +29,19 @@ pub(crate) fn robots(item: &str, node: &YamlNode, scene: &mut IrContext) -> Resu
         .collect::<Result<Vec<_>, _>>()?;
     let sensors = fields.take("sensors").filter(|node| !node.is_null());
     let sensors = sensors.map_or(Ok(vec![]), |node| sensors_of(item, node, scene))?;
+    let put = |problem| ImportError::at(node.line, item, problem);
+    scene.room.take_objects(group.states.len().saturating_mul(sensors.len())).map_err(put)?;
     let name = fields.take("name").filter(|node| !node.is_null());
     while let Some((key, _)) = fields.rest() {
         scene.draft.note(format!("robot.{key} is left out"));
     }
-    let put = |problem| ImportError::at(node.line, item, problem);
+    let sizes: Vec<Option<Sizes>> = shapes.iter().map(|shape| sizes(item, kind, shape, scene)).collect();
     for goal in goals {
         let name = scene.draft.world.numbered("goal");
         scene.draft.world.place(name, goal).map_err(put)?;
     }
     for (i, pose) in group.states.iter().enumerate() {
-        let shape = shapes.get(i).or(shapes.last()).unwrap_or(&IrShape::USUAL);
-        let sizes = sizes(item, kind, shape, scene);
+        let sizes = sizes.get(i).or(sizes.last()).cloned().flatten();
         let start = vec![pose.x, pose.y, pose.theta];
         let name = name.map(|node| node.each(i).text(&format!("{item}.name"))).transpose()?;
         scene.draft.robot(name, DraftRobot { kind, start, sizes, sensors: &sensors }).map_err(put)?;

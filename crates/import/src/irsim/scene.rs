@@ -1,6 +1,6 @@
 //! Reads a subset of IR-SIM's YAML.
 
-use super::context::{IrContext, IrsimOptions, objects, unsupported};
+use super::context::{IrContext, IrRoom, IrsimOptions, objects, unsupported};
 use super::obstacle::obstacles;
 use super::robot::robots;
 use crate::yaml::{self, YamlNode};
@@ -34,8 +34,9 @@ const IGNORED: [&str; 11] = [
 /// numbers.
 ///
 /// # Errors
-/// [`ImportError`] names line and item: unknown keys and shapes; and, unless they are to be left out, obstacles that
-/// move, robots that drive otherwise, grid maps.
+/// [`ImportError`] names line and item: unknown keys and shapes; more than 100,000 objects and sensors in all, left out
+/// or not; and, unless they are to be left out, obstacles that move, robots that drive otherwise, grid maps, and what
+/// gives the obstacles more than 400,000 points or takes too many tries at random.
 pub fn irsim(file: &str, text: &str, name: &str, options: IrsimOptions) -> Result<Imported, ImportError> {
     read(text, name, options).map_err(|error| error.of(file))
 }
@@ -44,7 +45,8 @@ fn read(text: &str, name: &str, options: IrsimOptions) -> Result<Imported, Impor
     let tree = yaml::read(text)?;
     let mut sections = tree.fields("")?;
     let world = sections.take("world").filter(|node| !node.is_null());
-    let mut scene = IrContext { draft: WorldDraft::default(), options, min: [0.0; 2], size: [10.0; 2] };
+    let (draft, room) = (WorldDraft::default(), IrRoom::default());
+    let mut scene = IrContext { draft, options, min: [0.0; 2], size: [10.0; 2], room };
     if let Some(world) = world {
         bounds(world, &mut scene)?;
     }

@@ -1,11 +1,11 @@
 //! The shapes of IR-SIM's objects.
 
-use super::context::{IrContext, unsupported};
+use super::context::{IrContext, IrRoom, unsupported};
 use super::random_polygon::RandomPolygon;
-use crate::ImportError;
 use crate::yaml::{Fields, YamlNode};
-use motion_lab_core::geometry::{Point2, Pose2};
-use motion_lab_core::num::{greater, hypot, lesser};
+use crate::{ImportError, ImportProblem};
+use motion_lab_core::geometry::{Aabb, Point2, Pose2};
+use motion_lab_core::num::{greater, hypot};
 use motion_lab_core::random::Stream;
 use motion_lab_core::worlds::{OutlineError, ShapeText, WorldProblem, Xy, convex_pieces};
 
@@ -75,29 +75,23 @@ impl IrShape {
         match self {
             IrShape::Polygon(points) | IrShape::Line(points) => points.len(),
             IrShape::Compound(parts) => parts.iter().map(|(_, shape)| shape.points()).sum(),
+            IrShape::RandomPolygon(polygon) => polygon.max_vertices(),
             _ => 4,
         }
     }
 
-    /// The shape itself, drawn if it is random.
-    pub fn drawn(&self, stream: &mut Stream) -> IrShape {
+    /// The shape itself, drawn if it is random, out of the room that is left for that.
+    pub fn drawn(&self, stream: &mut Stream, room: &mut IrRoom) -> Result<IrShape, ImportProblem> {
         match self {
             IrShape::RandomCircle { centre, radius: [least, most] } => {
-                IrShape::Circle { centre: *centre, radius: stream.uniform(*least, *most) }
+                Ok(IrShape::Circle { centre: *centre, radius: stream.uniform(*least, *most) })
             }
-            IrShape::RandomPolygon(polygon) => {
-                let mut draws = (0..MAX_DRAWS).map(|_| polygon.draw(stream));
-                let mut last = Vec::new();
-                let found = draws.find(|points| {
-                    last.clone_from(points);
-                    convex_pieces(points).is_ok()
-                });
-                IrShape::Polygon(found.unwrap_or(last))
-            }
+            IrShape::RandomPolygon(polygon) => Ok(IrShape::Polygon(drawn_polygon(polygon, stream, room)?)),
             IrShape::Compound(parts) => {
-                IrShape::Compound(parts.iter().map(|(pose, shape)| (*pose, shape.drawn(stream))).collect())
+                let part = |(pose, shape): &(Pose2, IrShape)| Ok((*pose, shape.drawn(stream, room)?));
+                parts.iter().map(part).collect::<Result<_, _>>().map(IrShape::Compound)
             }
-            other => other.clone(),
+            other => Ok(other.clone()),
         }
     }
 
@@ -126,16 +120,16 @@ impl IrShape {
         }
     }
 
-    /// Adds an object of this shape with its frame at `pose`; if `painted`, as a mark. A painted circle is left out,
-    /// with a note.
+    /// Whether the shape can be painted: its border is one chain of straight lines.
+    pub fn is_line(&self) -> bool {
+        !matches!(self, IrShape::Circle { .. } | IrShape::RandomCircle { .. } | IrShape::Compound(_))
+    }
+
+    /// Adds an object of this shape with its frame at `pose`; if `painted`, as a mark, which the shape must be fit for.
     pub fn put(&self, pose: &Pose2, painted: bool, name: String, scene: &mut IrContext) -> Result<(), WorldProblem> {
         let placed = |points: &[Point2]| points.iter().map(|p| place(pose, p)).collect::<Vec<Xy>>();
         let draft = &mut scene.draft;
         match self {
-            IrShape::Circle { .. } | IrShape::RandomCircle { .. } | IrShape::Compound(_) if painted => {
-                draft.note(format!("{name}, a {} that nothing collides with, is left out", self.kind()));
-                Ok(())
-            }
             IrShape::Rectangle { length, width, wheelbase } if painted => {
                 draft.world.mark(name, placed(&rectangle_corners(*length, *width, *wheelbase)), true)
             }
@@ -193,6 +187,24 @@ impl IrShape {
     }
 }
 
+/// The first polygon drawn that a world can hold; the last one if there is none.
+fn drawn_polygon(
+    polygon: &RandomPolygon,
+    stream: &mut Stream,
+    room: &mut IrRoom,
+) -> Result<Vec<Point2>, ImportProblem> {
+    let mut points = Vec::new();
+    for _ in 0..MAX_DRAWS {
+        points = polygon.draw(stream);
+        // each edge is compared with those after it
+        room.take_draw(points.len() * points.len() / 2)?;
+        if convex_pieces(&points).is_ok() {
+            break;
+        }
+    }
+    Ok(points)
+}
+
 /// A point of a frame at `pose`. Without a rotation the coordinates are only added.
 fn place(pose: &Pose2, p: &Point2) -> Xy {
     let placed = if pose.theta == 0.0 { p + pose.position().coords } else { pose.transform(*p) };
@@ -215,11 +227,10 @@ fn is_crossed(points: &[Point2]) -> bool {
     matches!(convex_pieces(points), Err(OutlineError::Crossing { .. }))
 }
 
+/// The corners of the box around some points, counter-clockwise from the lower left.
 fn bounding_box(points: &[Point2]) -> [Point2; 4] {
-    let fold = |of: fn(&Point2) -> f64, pick: fn(f64, f64) -> f64| points.iter().map(of).reduce(pick).unwrap_or(0.0);
-    let (left, right) = (fold(|p| p.x, lesser), fold(|p| p.x, greater));
-    let (low, high) = (fold(|p| p.y, lesser), fold(|p| p.y, greater));
-    [(left, low), (right, low), (right, high), (left, high)].map(|(x, y)| Point2::new(x, y))
+    let Aabb { min, max } = Aabb::around(points).unwrap_or(Aabb::new(Point2::origin(), Point2::origin()));
+    [min, Point2::new(max.x, min.y), max, Point2::new(min.x, max.y)]
 }
 
 fn flag(item: &str, key: &str, fields: &mut Fields) -> Result<bool, ImportError> {

@@ -34,14 +34,15 @@ pub(crate) fn outline(part: &CurvedPart, tolerance: f64, room: &mut usize) -> Op
     Some(PathOutline { points, closed })
 }
 
-fn end_of(piece: &PathPiece) -> Point2 {
+/// Where a piece ends.
+pub(super) fn end_of(piece: &PathPiece) -> Point2 {
     match *piece {
         PathPiece::Line(end) | PathPiece::Cubic(_, _, end) | PathPiece::Arc(_, end) => end,
     }
 }
 
 /// The point at a part of a piece, from 0 to 1. The end is exact.
-fn along(from: Point2, piece: &PathPiece, t: f64) -> Point2 {
+pub(super) fn along(from: Point2, piece: &PathPiece, t: f64) -> Point2 {
     let u = 1.0 - t;
     match *piece {
         _ if t == 1.0 => end_of(piece),

@@ -35,6 +35,18 @@ impl EllipticArc {
         EllipticArc { center: map.point(self.center), u: map.vector(self.u), v: map.vector(self.v), ..*self }
     }
 
+    /// Where the arc turns back along an axis, as parts of the sweep from 0 to 1.
+    pub fn turning_points(&self) -> Vec<f64> {
+        let [x, y] = [num::atan2(self.v.x, self.u.x), num::atan2(self.v.y, self.u.y)];
+        let half_turn = std::f64::consts::PI;
+        let part = |angle: f64| {
+            let swept = num::wrap(angle - self.from) * self.sweep.signum();
+            (if swept < 0.0 { swept + std::f64::consts::TAU } else { swept }) / self.sweep.abs()
+        };
+        // those at an end may be missed by rounding, and are ends
+        [x, x + half_turn, y, y + half_turn].map(part).into_iter().filter(|t| *t < 1.0).collect()
+    }
+
     /// The number of chords that stay within `tolerance` of the arc, not rounded. A chord over the angle d lies at most
     /// r (1 - cos(d / 2)) inside, where r is the ellipse's greater half-axis.
     pub fn chords(&self, tolerance: f64) -> f64 {

@@ -14,7 +14,7 @@ pub(super) struct VertexPool {
 
 impl VertexPool {
     /// The index of the point at `p`, or of the first one closer to it than the smallest feature; otherwise of a new
-    /// one.
+    /// one. No coordinate of `p` may be larger than [`MAX_PLANAR_COORDINATE`](super::extent::MAX_PLANAR_COORDINATE).
     pub fn vertex(&mut self, p: Point2) -> usize {
         let cell = |x: f64| (x / MIN_FEATURE).floor() as i64;
         let (column, row) = (cell(p.x), cell(p.y));

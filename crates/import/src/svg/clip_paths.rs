@@ -3,17 +3,19 @@
 use roxmltree::Node;
 
 use super::check::attribute;
-use super::clips::{ClipRegion, ClipShape, Extent2};
+use super::clips::{ClipRegion, ClipShape};
 use super::lengths::{Along, LengthScale};
 use super::shapes::parts;
+use super::style::StyleTable;
 use super::uses::{href, is_drawn, url_target};
 use super::walk::{SvgWalk, WalkContext, scale_of};
-use crate::planar::{Affine, CurvedPart, outline};
+use crate::planar::{Affine, CurvedPart, beyond, extent, outline};
+use motion_lab_core::geometry::Aabb;
 use motion_lab_core::worlds::MAX_ITEMS;
 
-/// Bytes of the attributes of all clip paths together, a hundred for each of their shapes and of the pieces whose box
-/// is asked for, and eight for each point of their lines. A clip path is read for each transform under which it is
-/// used.
+/// Bytes of the attributes of all clip paths together, a hundred for each of their elements and of the pieces whose box
+/// is asked for, ten for each element around them, and eight for each point of their lines. A clip path is read for
+/// each transform under which it is used.
 const MAX_CLIP_WORK: usize = 8 << 20;
 
 /// Depth of clip paths that are cut themselves.
@@ -33,14 +35,16 @@ impl<'a> SvgWalk<'a, '_> {
         let mut map = around.map;
         if attribute(target, "clipPathUnits") == Some("objectBoundingBox") {
             let back = map.inverse().ok_or("its transform flattens it")?;
-            let parts: Vec<CurvedPart> =
-                self.shapes[before..].iter().flat_map(|shape| &shape.parts).map(|part| part.mapped(&back)).collect();
-            self.spend(parts.iter().map(|part| 100 * (1 + part.pieces.len())).sum())?;
-            let Extent2 { min, max } = self.extent(&parts).ok_or("it has no box to cut")?;
+            let parts = || self.shapes[before..].iter().flat_map(|shape| &shape.parts);
+            self.spend(parts().map(|part| 100 * (1 + part.pieces.len())).sum())?;
+            let parts = self.shapes[before..].iter().flat_map(|shape| &shape.parts);
+            let parts: Vec<CurvedPart> = parts.map(|part| part.mapped(&back)).collect();
+            let Aabb { min, max } = extent(&parts).ok_or("it has no box to cut")?;
             let size = max - min;
             map = map.after(&Affine([size.x, 0.0, 0.0, size.y, min.x, min.y]));
         }
-        let region = self.clip_region(target, map, &scale_of(around), 0)?;
+        let style = ClipStyle::USUAL;
+        let region = self.clip_region(target, &ClipContext { map, scale: scale_of(around), style, depth: 0 })?;
         self.cut(region, before);
         Ok(())
     }
@@ -55,41 +59,40 @@ impl<'a> SvgWalk<'a, '_> {
     }
 
     /// Reads a clip path under a map from its units to metres.
-    fn clip_region(
-        &mut self,
-        node: Node<'a, 'a>,
-        map: Affine,
-        scale: &LengthScale,
-        depth: usize,
-    ) -> Result<usize, LeftOut> {
-        let key = (node.id().get_usize(), map.0.map(f64::to_bits));
+    fn clip_region(&mut self, node: Node<'a, 'a>, around: &ClipContext) -> Result<usize, LeftOut> {
+        let key = (node.id().get_usize(), around.map.0.map(f64::to_bits));
         if let Some(known) = self.clips_read.get(&key) {
             return Ok(*known);
         }
-        if depth > MAX_CLIP_DEPTH {
+        if around.depth > MAX_CLIP_DEPTH {
             return Err("its clip paths are nested too deeply".into());
         }
-        let map = match self.styles.own(node, "transform").map(|text| self.transform(node, text, scale)) {
-            Some(own) => map.after(&own.ok_or("the transform of its clip path is not understood")?),
-            None => map,
-        };
-        let mut region = ClipRegion { clips: self.clips_of(node, map, scale, depth)?, ..ClipRegion::default() };
+        let ancestors: Vec<Node> = node.ancestors().skip(1).collect();
+        self.spend(reading_work(node) + 10 * ancestors.len())?;
+        // a clip path inherits from the elements around it, not from what it cuts
+        let style = ancestors.iter().rev().fold(ClipStyle::USUAL, |style, node| style.at(*node, self.styles));
+        let inner = ClipContext { style, ..*around };
+        let inner = self.clip_context(node, &inner).ok_or("the transform of its clip path is not understood")?;
+        let mut region = ClipRegion { clips: self.clips_of(node, &inner)?, ..ClipRegion::default() };
         for child in node.children().filter(is_drawn) {
-            region.shapes.extend(self.clip_shape(child, map, scale, depth)?);
+            region.shapes.extend(self.clip_shape(child, &inner)?);
         }
         let index = self.clips.add(region);
         self.clips_read.insert(key, index);
         Ok(index)
     }
 
+    /// Where an element stands within, with its style and its transform; `None` if that is not understood.
+    fn clip_context(&self, node: Node<'a, 'a>, around: &ClipContext) -> Option<ClipContext> {
+        let map = match self.styles.own(node, "transform").map(|text| self.transform(node, text, &around.scale)) {
+            Some(own) => around.map.after(&own?),
+            None => around.map,
+        };
+        Some(ClipContext { map, style: around.style.at(node, self.styles), ..*around })
+    }
+
     /// The regions that cut an element of a clip path, or the clip path itself.
-    fn clips_of(
-        &mut self,
-        node: Node<'a, 'a>,
-        map: Affine,
-        scale: &LengthScale,
-        depth: usize,
-    ) -> Result<Vec<usize>, LeftOut> {
+    fn clips_of(&mut self, node: Node<'a, 'a>, around: &ClipContext) -> Result<Vec<usize>, LeftOut> {
         let target = self.styles.own(node, "clip-path").and_then(url_target).and_then(|id| self.targets.get(id));
         let Some(target) = target.copied().filter(|target| target.tag_name().name() == "clipPath") else {
             return Ok(Vec::new());
@@ -97,55 +100,88 @@ impl<'a> SvgWalk<'a, '_> {
         if attribute(target, "clipPathUnits") == Some("objectBoundingBox") {
             return Err("its clip path is cut by the box around another shape".into());
         }
-        Ok(vec![self.clip_region(target, map, scale, depth + 1)?])
+        Ok(vec![self.clip_region(target, &around.deeper())?])
     }
 
     /// Reads one shape of a clip path; `None` if it does not show.
-    fn clip_shape(
-        &mut self,
-        node: Node<'a, 'a>,
-        map: Affine,
-        scale: &LengthScale,
-        depth: usize,
-    ) -> Result<Option<ClipShape>, LeftOut> {
-        let own = |node: Node, property: &str| self.styles.own(node, property).map(str::to_owned);
-        let is_hidden = node.ancestors().find_map(|n| own(n, "visibility")).is_some_and(|word| word != "visible");
-        if own(node, "display").as_deref() == Some("none") || is_hidden || depth > MAX_CLIP_DEPTH {
+    fn clip_shape(&mut self, node: Node<'a, 'a>, around: &ClipContext) -> Result<Option<ClipShape>, LeftOut> {
+        self.spend(reading_work(node))?;
+        if self.styles.own(node, "display") == Some("none") || around.depth > MAX_CLIP_DEPTH {
             return Ok(None);
         }
-        let map = match own(node, "transform").map(|text| self.transform(node, &text, scale)) {
-            Some(own) => map.after(&own.ok_or("a transform in its clip path is not understood")?),
-            None => map,
-        };
-        let clips = self.clips_of(node, map, scale, depth)?;
+        let inner = self.clip_context(node, around).ok_or("a transform in its clip path is not understood")?;
         match node.tag_name().name() {
             "use" => {
+                let clips = self.clips_of(node, &inner)?;
                 let target = href(&node).and_then(|href| self.targets.get(href.strip_prefix('#')?)).copied();
-                let length =
-                    |name: &str, along: Along| attribute(node, name).and_then(|text| scale.length(text, along));
-                let map = map.after(&Affine::translate(
-                    length("x", Along::X).unwrap_or(0.0),
-                    length("y", Along::Y).unwrap_or(0.0),
-                ));
-                let shape = target.map(|target| self.clip_shape(target, map, scale, depth + 1)).transpose()?.flatten();
+                let length = |name: &str, along: Along| {
+                    attribute(node, name).and_then(|text| around.scale.length(text, along)).unwrap_or(0.0)
+                };
+                let map = inner.map.after(&Affine::translate(length("x", Along::X), length("y", Along::Y)));
+                let inner = ClipContext { map, ..inner.deeper() };
+                let shape = target.map(|target| self.clip_shape(target, &inner)).transpose()?.flatten();
                 Ok(shape.map(|mut shape| {
                     shape.clips.extend(clips);
                     shape
                 }))
             }
-            "path" | "rect" | "circle" | "ellipse" | "polyline" | "polygon" => {
-                self.spend(100 + node.attributes().map(|a| a.value().len()).sum::<usize>())?;
-                let parts = parts(node, scale).map_err(|error| format!("its clip path has {}", error.problem))?.0;
+            "path" | "rect" | "circle" | "ellipse" | "polyline" | "polygon" if !inner.style.is_hidden => {
+                let clips = self.clips_of(node, &inner)?;
+                let parts =
+                    parts(node, &around.scale).map_err(|error| format!("its clip path has {}", error.problem))?;
+                let parts: Vec<CurvedPart> = parts.0.iter().map(|part| part.mapped(&inner.map)).collect();
+                if beyond(&parts).is_some() {
+                    return Err("its clip path reaches too far".into());
+                }
                 let mut room = MAX_ITEMS;
-                let ring = |part: &CurvedPart| Some(outline(&part.mapped(&map), self.tolerance, &mut room)?.points);
+                let ring = |part: &CurvedPart| Some(outline(part, self.tolerance, &mut room)?.points);
                 let rings: Option<Vec<_>> = parts.iter().map(ring).collect();
-                let even_odd = node.ancestors().find_map(|n| own(n, "clip-rule")).is_some_and(|rule| rule == "evenodd");
                 let rings = rings.ok_or("the curves of its clip path are too large")?;
                 self.spend(8 * rings.iter().map(Vec::len).sum::<usize>())?;
-                Ok(Some(ClipShape::new(rings, even_odd, clips)))
+                Ok(Some(ClipShape::new(rings, inner.style.is_even_odd, clips)))
             }
-            "text" => Err("its clip path is a text".into()),
+            "text" if !inner.style.is_hidden => Err("its clip path is a text".into()),
             _ => Ok(None),
         }
     }
+}
+
+/// Where an element of a clip path stands.
+#[derive(Clone, Copy)]
+struct ClipContext {
+    /// From the element's units to metres.
+    map: Affine,
+    scale: LengthScale,
+    style: ClipStyle,
+    /// The number of clip paths and of `use` around it.
+    depth: usize,
+}
+
+impl ClipContext {
+    fn deeper(&self) -> Self {
+        ClipContext { depth: self.depth + 1, ..*self }
+    }
+}
+
+/// What a shape of a clip path inherits from the elements around it.
+#[derive(Clone, Copy)]
+struct ClipStyle {
+    is_hidden: bool,
+    is_even_odd: bool,
+}
+
+impl ClipStyle {
+    const USUAL: ClipStyle = ClipStyle { is_hidden: false, is_even_odd: false };
+
+    fn at(&self, node: Node, styles: &StyleTable) -> Self {
+        ClipStyle {
+            is_hidden: styles.is_hidden(node, self.is_hidden),
+            is_even_odd: styles.is_even_odd(node, "clip-rule", self.is_even_odd),
+        }
+    }
+}
+
+/// What it takes to read an element, by the measure of [`MAX_CLIP_WORK`].
+fn reading_work(node: Node) -> usize {
+    100 + node.attributes().map(|attribute| attribute.value().len()).sum::<usize>()
 }

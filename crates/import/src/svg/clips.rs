@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::planar::Ring;
-use motion_lab_core::geometry::{Point2, Segment, cross};
-use motion_lab_core::num::{greater, lesser};
+use motion_lab_core::geometry::{Aabb, Point2, Segment, cross};
 
 /// One shape of a clip path.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,33 +38,9 @@ const AT_BORDER: f64 = 2e-6;
 /// Largest number of regions that cut one shape.
 const MAX_LAYERS: usize = 500;
 
-/// The least and the greatest corner of some points.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Extent2 {
-    pub min: Point2,
-    pub max: Point2,
-}
-
-impl Extent2 {
-    /// `None` for no points.
-    pub fn of<'a>(points: impl IntoIterator<Item = &'a Point2>) -> Option<Self> {
-        points.into_iter().fold(None, |all: Option<Extent2>, p| {
-            let Extent2 { min, max } = all.unwrap_or(Extent2 { min: *p, max: *p });
-            Some(Extent2 {
-                min: Point2::new(lesser(p.x, min.x), lesser(p.y, min.y)),
-                max: Point2::new(greater(p.x, max.x), greater(p.y, max.y)),
-            })
-        })
-    }
-
-    /// Whether two have a point in common, or nearly.
-    pub fn meets(&self, other: &Extent2) -> bool {
-        let apart = |a: f64, b: f64| a > b + AT_BORDER;
-        !(apart(self.min.x, other.max.x)
-            || apart(other.min.x, self.max.x)
-            || apart(self.min.y, other.max.y)
-            || apart(other.min.y, self.max.y))
-    }
+/// Whether two boxes have a point in common, or nearly.
+pub(crate) fn meet(one: &Aabb, other: &Aabb) -> bool {
+    !one.grown(AT_BORDER).is_apart(other)
 }
 
 impl ClipTable {
@@ -86,7 +61,7 @@ impl ClipTable {
     /// Whether a region plainly holds all of these points and what they surround. `false` is inconclusive.
     pub fn holds(&self, index: usize, points: &[Point2]) -> bool {
         let region = &self.regions[index];
-        let Some(extent) = Extent2::of(points) else { return true };
+        let Some(extent) = Aabb::around(points) else { return true };
         let is_in = |shape: &ClipShape| {
             shape.clips.iter().all(|clip| self.holds(*clip, points))
                 && (shape.holds_convex(points) || shape.surrounds(&extent))
@@ -199,9 +174,9 @@ impl ClipShape {
     }
 
     /// Whether a box lies inside, and no line passes through it.
-    fn surrounds(&self, extent: &Extent2) -> bool {
-        let free = |[a, b]: [Point2; 2]| Extent2::of(&[a, b]).is_some_and(|edge| !edge.meets(extent));
-        let center = nalgebra::center(&extent.min, &extent.max);
+    fn surrounds(&self, extent: &Aabb) -> bool {
+        let free = |ends: [Point2; 2]| Aabb::around(&ends).is_some_and(|edge| !meet(&edge, extent));
+        let center = extent.centre();
         self.rings.iter().flat_map(|ring| edges(ring)).all(free)
             && is_in(self.rings.iter().map(|ring| winding(ring, center)).sum(), self.even_odd)
     }

@@ -26,7 +26,8 @@ pub(crate) const PROPERTIES: [&str; 20] = [
     "stop-opacity",
 ];
 
-/// Largest number of parts of a selector. The time to match one that names ancestors grows steeply with their number.
+/// Largest number of parts of a selector. The time to match one that names ancestors grows with their number to the
+/// power of the parts less one.
 const MAX_PARTS: usize = 3;
 
 /// Greatest length of a value in a style sheet, bytes: a rule may hold for every element.

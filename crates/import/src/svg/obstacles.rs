@@ -1,11 +1,11 @@
 //! `SvgObstacles`, which makes obstacles of drawn shapes.
 
 use super::check::Labels;
-use super::clips::{ClipLayers, ClipTable, Extent2, is_in};
+use super::clips::{ClipLayers, ClipTable, is_in, meet};
 use super::walk::DrawnShape;
 use crate::draft::WorldDraft;
-use crate::planar::{Arrangement, CurvedPart, PathOutline, Ring, disc, micro, outline, rounded};
-use motion_lab_core::geometry::{ConvexPolygon, MIN_FEATURE, Point2, orientation};
+use crate::planar::{Arrangement, CurvedPart, PathOutline, Ring, beyond, disc, micro, outline, rounded};
+use motion_lab_core::geometry::{Aabb, ConvexPolygon, MIN_FEATURE, Point2, ShapeError, orientation};
 use motion_lab_core::num::{greater, hypot};
 use motion_lab_core::worlds::{MAX_CONCAVE_VERTICES, MAX_ITEMS, ShapeText, WorldProblem, Xy};
 
@@ -35,7 +35,13 @@ fn xy(p: &Point2) -> Xy {
 
 impl<'a> SvgObstacles<'a> {
     /// Adds the obstacle of a shape, or several: a solid for what is filled, walls for what is only stroked.
+    ///
+    /// # Errors
+    /// [`WorldProblem`]: more than a world holds, or what reaches too far to be cut.
     pub fn add(&mut self, shape: &DrawnShape<'_>) -> Result<(), WorldProblem> {
+        if let Some(p) = beyond(&shape.parts) {
+            return Err(ShapeError::Coordinate(p.x, p.y).into());
+        }
         let follow = |part: &CurvedPart| outline(part, self.tolerance, &mut self.room);
         let outlines: Option<Vec<PathOutline>> = shape.parts.iter().map(follow).collect();
         let outlines = outlines.ok_or(WorldProblem::TooMany { what: "straight pieces of its curves" })?;
@@ -96,7 +102,7 @@ impl<'a> SvgObstacles<'a> {
             self.draft.note("what is smaller than a millimetre is left out");
             return Ok(());
         }
-        let name = self.name(&shape.id, "wall");
+        let name = self.name(shape.id, "wall");
         self.draft.world.wall(name, points.iter().map(xy).collect(), closed)
     }
 
@@ -111,7 +117,7 @@ impl<'a> SvgObstacles<'a> {
         for (part, outline) in shape.parts.iter().zip(outlines) {
             let outline = PathOutline { closed: true, ..outline.clone() };
             let (points, _) = spaced(&outline);
-            if let (Some(extent), true) = (Extent2::of(&points), points.len() > 2) {
+            if let (Some(extent), true) = (Aabb::around(&points), points.len() > 2) {
                 rings.push(PlacedRing { points, extent, disc: disc(part, self.tolerance) });
             } else if shape.stroked || has_area(&outline.points) {
                 thin.push(outline);
@@ -160,7 +166,7 @@ impl<'a> SvgObstacles<'a> {
             _ => "polygon",
         };
         let text = if members.len() == 1 { members.remove(0) } else { ShapeText::Union(members) };
-        let name = self.name(&shape.id, stem);
+        let name = self.name(shape.id, stem);
         self.draft.world.solid(name, text)
     }
 
@@ -204,7 +210,7 @@ enum Unfilled {
 /// A filled part of a shape.
 struct PlacedRing {
     points: Vec<Point2>,
-    extent: Extent2,
+    extent: Aabb,
     disc: Option<(Point2, f64)>,
 }
 
@@ -232,7 +238,7 @@ fn box_of(points: &[Point2]) -> Option<ShapeText> {
     let upright = |i: usize| points[i].x == points[(i + 1) % 4].x;
     let level = |i: usize| points[i].y == points[(i + 1) % 4].y;
     let is_box = points.len() == 4 && (0..4).all(|i| upright(i) != level(i) && upright(i) != upright((i + 1) % 4));
-    let Extent2 { min, max } = Extent2::of(points).filter(|_| is_box)?;
+    let Aabb { min, max } = Aabb::around(points).filter(|_| is_box)?;
     Some(ShapeText::Box { min: xy(&min), max: xy(&max) })
 }
 
@@ -252,7 +258,7 @@ fn groups(rings: Vec<PlacedRing>) -> Vec<Vec<PlacedRing>> {
 /// Splits rings where a straight line along an axis keeps off all of them.
 fn strips(mut rings: Vec<PlacedRing>, along_x: bool) -> Vec<Vec<PlacedRing>> {
     let span = |ring: &PlacedRing| {
-        let Extent2 { min, max } = ring.extent;
+        let Aabb { min, max } = ring.extent;
         if along_x { (min.x, max.x) } else { (min.y, max.y) }
     };
     rings.sort_by(|a, b| span(a).0.partial_cmp(&span(b).0).unwrap_or(std::cmp::Ordering::Equal));
@@ -271,14 +277,13 @@ fn strips(mut rings: Vec<PlacedRing>, along_x: bool) -> Vec<Vec<PlacedRing>> {
 
 /// Joins rings whose boxes meet, or meet the box of a group.
 fn joined(rings: Vec<PlacedRing>) -> Vec<Vec<PlacedRing>> {
-    let mut groups: Vec<(Extent2, Vec<PlacedRing>)> = Vec::new();
+    let mut groups: Vec<(Aabb, Vec<PlacedRing>)> = Vec::new();
     for ring in rings {
         let mut joined = (ring.extent, vec![ring]);
         // what the growing box meets joins, until nothing more does
-        while let Some(i) = groups.iter().position(|(extent, _)| extent.meets(&joined.0)) {
+        while let Some(i) = groups.iter().position(|(extent, _)| meet(extent, &joined.0)) {
             let (extent, mut members) = groups.remove(i);
-            let corners = [extent.min, extent.max, joined.0.min, joined.0.max];
-            joined.0 = Extent2::of(&corners).unwrap_or(extent);
+            joined.0 = extent.merged(&joined.0);
             members.append(&mut joined.1);
             joined.1 = members;
         }

@@ -3,17 +3,17 @@
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::check::{Labels, TEXT_LEFT_OUT, check};
-use super::clips::Extent2;
 use super::obstacles::{MAX_COMPARISONS, MAX_LINE_POINTS, SvgObstacles};
+use super::paint::FONT_SIZE;
 use super::scan::scan;
-use super::style::{FONT_SIZE, StyleTable};
+use super::style::StyleTable;
 use super::uses::{Targets, check_uses, is_drawn, targets};
 use super::viewport::{SheetSize, sheet_size, view_box};
 use super::walk::SvgWalk;
 use crate::error::wrong_value;
-use crate::planar::{Affine, micro};
+use crate::planar::{Affine, extent, micro};
 use crate::{ImportError, ImportProblem, Imported, WorldDraft};
-use motion_lab_core::geometry::MIN_FEATURE;
+use motion_lab_core::geometry::{Aabb, MIN_FEATURE};
 
 /// The least tolerance, metres: coordinates are rounded to it.
 const MIN_TOLERANCE: f64 = 1e-6;
@@ -49,8 +49,9 @@ impl Default for SvgOptions {
 /// the `use` that repeats it, if there is one.
 ///
 /// # Errors
-/// [`ImportError`] names line and element: text that is not SVG; malformed numbers, or numbers above 10^7; a drawing
-/// without obstacles, or with more than a world holds. A drawing may have at most 50,000 elements, including those
+/// [`ImportError`] names line and element: text that is not SVG; malformed numbers, or numbers above 10^7; shapes that
+/// lie out of a world where nothing cuts them, or anywhere more than 10^9 m from the origin; a drawing without
+/// obstacles, or with more than a world holds. A drawing may have at most 50,000 elements, including those
 /// repeated by `use`, nested at most 1,000 deep; 100 attributes an element and 200,000 in all; four megabytes of paths;
 /// and a quarter of a megabyte of style sheets.
 pub fn svg(file: &str, text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportError> {
@@ -122,7 +123,7 @@ impl SvgDrawing<'_> {
             room: MAX_LINE_POINTS,
         };
         for shape in &shapes {
-            obstacles.add(shape).map_err(|problem| ImportError::at(0, shape.id.as_str(), problem))?;
+            obstacles.add(shape).map_err(|problem| ImportError::at(0, shape.id, problem))?;
         }
         Ok(sheet)
     }
@@ -133,8 +134,8 @@ impl SvgDrawing<'_> {
         let mut draft = WorldDraft::default();
         let mut walk = SvgWalk::new(self.styles, self.targets, self.labels, self.options.tolerance, &mut draft);
         walk.drawing(self.root, Affine::IDENTITY, UNKNOWN)?;
-        let parts: Vec<_> = walk.shapes.iter().flat_map(|shape| shape.parts.clone()).collect();
-        Ok(walk.extent(&parts).map_or(UNKNOWN, |Extent2 { max, .. }| (max.x, max.y)))
+        let parts = walk.shapes.iter().flat_map(|shape| &shape.parts);
+        Ok(extent(parts).map_or(UNKNOWN, |Aabb { max, .. }| (max.x, max.y)))
     }
 
     /// The length of a pixel of the sheet, metres. Unless a unit of the drawing is a metre, a note says what it is.

@@ -5,25 +5,24 @@ use std::collections::BTreeMap;
 use roxmltree::Node;
 
 use super::check::{Labels, attribute};
-use super::clips::{ClipRegion, ClipShape, ClipTable, Extent2};
+use super::clips::{ClipRegion, ClipShape, ClipTable};
 use super::lengths::{Along, LengthScale, ratio};
-use super::paint::Painter;
+use super::paint::{FONT_SIZE, Inherited, Painter};
 use super::shapes::parts;
-use super::style::{FONT_SIZE, Inherited, StyleTable};
+use super::style::StyleTable;
 use super::transforms::{ReferenceBox, transform_list, transform_origin};
 use super::uses::{Targets, href, is_drawn, url_target};
 use super::viewport::{ViewRect, fit, view_box};
 use crate::draft::WorldDraft;
-use crate::planar::{Affine, CurvedPart, outline};
+use crate::planar::{Affine, CurvedPart, beyond, extent};
 use crate::{ImportError, ImportProblem};
-use motion_lab_core::geometry::Point2;
-use motion_lab_core::worlds::MAX_ITEMS;
+use motion_lab_core::geometry::{Aabb, Point2};
 
 /// A shape that shows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DrawnShape<'a> {
     /// The id of its element, or of the `use` that repeats it; empty if there is none.
-    pub id: String,
+    pub id: &'a str,
     pub element: Node<'a, 'a>,
     pub parts: Vec<CurvedPart>,
     pub filled: bool,
@@ -38,7 +37,7 @@ pub(crate) struct DrawnShape<'a> {
 pub(crate) struct WalkContext<'s> {
     /// From the element's units to metres.
     pub map: Affine,
-    style: Inherited<'s>,
+    style: Inherited,
     viewport: (f64, f64),
     /// The id of the `use` that repeats the element.
     repeated_by: Option<&'s str>,
@@ -164,7 +163,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     fn styled(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
         let styles = self.styles;
         let own = |property: &str| styles.own(node, property);
-        let mut inner = WalkContext { style: around.style.at(node, styles, &scale_of(around)), ..*around };
+        let mut inner =
+            WalkContext { style: around.style.at(node, styles, &self.painter, &scale_of(around)), ..*around };
         if own("opacity").and_then(ratio).is_some_and(|opacity| opacity <= 0.0) {
             self.draft.note("what is drawn invisibly is left out");
             return Ok(());
@@ -205,7 +205,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     }
 
     fn shape(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
-        let (filled, stroked) = (self.painter.fills(&around.style), self.painter.strokes(&around.style));
+        let (filled, stroked) = (around.style.fills(), around.style.strokes());
         let is_line = node.tag_name().name() == "line";
         if around.style.hidden || !(filled && !is_line || stroked) {
             self.draft.note("what is drawn invisibly is left out");
@@ -215,7 +215,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         if is_cut {
             self.note(node, |label| format!("{label} is drawn up to a mistake in its path"));
         }
-        let id = around.repeated_by.or(attribute(node, "id")).unwrap_or_default().to_owned();
+        let id = around.repeated_by.or(attribute(node, "id")).unwrap_or_default();
         let parts = parts.iter().map(|part| part.mapped(&around.map)).collect();
         let (even_odd, clips) = (around.style.even_odd, Vec::new());
         let filled = filled && !is_line;
@@ -239,7 +239,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             ..*around
         };
         if target.tag_name().name() == "symbol" && is_drawn(&target) {
-            let style = inner.style.at(target, self.styles, &scale);
+            let style = inner.style.at(target, self.styles, &self.painter, &scale);
             return self.viewport(target, &WalkContext { style, ..inner }, (0.0, 0.0));
         }
         self.steps.push(WalkStep::Element(target, inner));
@@ -269,6 +269,9 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         if !matches!(self.styles.own(node, "overflow"), Some("visible" | "auto")) {
             let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
             let ring = corners.map(|(x, y)| around.map.point(Point2::new(x, y))).to_vec();
+            if beyond(&[CurvedPart::ring(&ring)]).is_some() {
+                return self.note(node, |label| format!("{label} is left out: its viewport reaches too far"));
+            }
             let shape = ClipShape::new(vec![ring], false, Vec::new());
             let region = self.clips.add(ClipRegion { shapes: vec![shape], ..ClipRegion::default() });
             self.steps.push(WalkStep::Viewport { region, from: self.shapes.len() });
@@ -282,22 +285,13 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let of_box = match self.styles.own(node, "transform-box") {
             Some("fill-box" | "content-box") => {
                 let parts = parts(node, scale).ok()?.0;
-                let Extent2 { min, max } = self.extent(&parts)?;
+                let Aabb { min, max } = extent(&parts)?;
                 ReferenceBox { least: (min.x, min.y), size: (max.x - min.x, max.y - min.y) }
             }
             _ => ReferenceBox { least: (0.0, 0.0), size: scale.viewport },
         };
         let (x, y) = transform_origin(origin, scale, of_box)?;
         Some(Affine::translate(x, y).after(&map).after(&Affine::translate(-x, -y)))
-    }
-
-    /// The box around these parts.
-    pub fn extent(&self, parts: &[CurvedPart]) -> Option<Extent2> {
-        let rough = Extent2::of(parts.iter().map(|part| &part.start))?;
-        let tolerance = 1e-6 * (1.0 + (rough.max - rough.min).norm());
-        let mut room = 100 * MAX_ITEMS;
-        let outlines: Vec<_> = parts.iter().map(|part| outline(part, tolerance, &mut room)).collect::<Option<_>>()?;
-        Extent2::of(outlines.iter().flat_map(|outline| &outline.points))
     }
 }
 

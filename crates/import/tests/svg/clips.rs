@@ -221,3 +221,82 @@ fn large_curves_of_many_clip_paths_take_bounded_memory() {
     assert!(found.world.obstacle("post").is_some());
     assert!(found.notes.iter().any(|note| note.ends_with("the clip paths of the drawing are too large")));
 }
+
+#[test]
+fn what_is_hidden_or_evenodd_is_so_for_clip_paths_and_shapes_by_the_same_words() {
+    // whether a shape shows, by its own word and by that of the group around it
+    for (around, own, shows) in [
+        ("", "hidden", false),
+        ("", "collapse", false),
+        ("", "HIDDEN", false),
+        ("", "no such word", true),
+        ("hidden", "", false),
+        ("hidden", "inherit", false),
+        ("hidden", "unset", false),
+        ("hidden", "no such word", false),
+        ("collapse", "visible", true),
+        ("hidden", "Visible", true),
+        ("hidden", "initial", true),
+    ] {
+        let word = |word: &str| if word.is_empty() { String::new() } else { format!("visibility='{word}'") };
+        let (around, own) = (word(around), word(own));
+        let post = "<circle id='post' cx='15' cy='5' r='1'/>";
+        let shape = format!("<g {around}>{}</g>", BOX.replace("/>", &format!(" {own}/>")));
+        let drawn_one = drawn(&format!("{shape}{post}")).world;
+        assert_eq!(drawn_one.obstacle("box").is_some(), shows, "{shape}");
+        // a clip path whose shape does not show lets nothing through; of the groups around it the innermost with a word
+        // counts
+        let window = format!("<rect x='3' width='2' height='9' {own}/>");
+        let clip = format!(
+            "<g visibility='visible'><g {around}><g><clipPath id='c'>{window}</clipPath></g></g></g>\
+             <g clip-path='url(#c)'>{BOX}</g>"
+        );
+        let cut = drawn(&format!("{clip}{post}")).world;
+        assert_eq!(cut.obstacle("box").is_some(), shows, "{clip}");
+        // what is used inherits from the `use`, not from the elements around it
+        let used = format!("<g visibility='hidden'><rect id='w' x='3' width='2' height='9' {own}/></g>");
+        let clip =
+            format!("{used}<clipPath id='c'><use href='#w' {around}/></clipPath><g clip-path='url(#c)'>{BOX}</g>");
+        assert_eq!(drawn(&format!("{clip}{post}")).world.obstacle("box").is_some(), shows, "{clip}");
+        let twice = format!("{used}<g {around}><use id='u' href='#w'/></g>{post}");
+        assert_eq!(drawn(&twice).world.obstacle("u").is_some(), shows, "{twice}");
+    }
+    // a frame of 9 x 9 around a hole of 2 x 1 in the box of 4 x 2
+    for (around, own, open) in [
+        ("", "evenodd", true),
+        ("", "EvenOdd", true),
+        ("", "no such word", false),
+        ("evenodd", "", true),
+        ("evenodd", "inherit", true),
+        ("evenodd", "no such word", true),
+        ("evenodd", "nonzero", false),
+        ("evenodd", "initial", false),
+    ] {
+        let rule = |kind: &str, word: &str| {
+            if word.is_empty() { String::new() } else { format!("{kind}-rule='{word}'") }
+        };
+        let frame = |kind: &str| format!("<path id='f' d='M1 1h9v9h-9zM3 2.5h2v1h-2z' {}/>", rule(kind, own));
+        let shape = format!("<g {}>{}</g>", rule("fill", around), frame("fill"));
+        assert_eq!(area(&drawn(&shape).world, "f"), if open { 79.0 } else { 81.0 }, "{shape}");
+        let clip = |inner: &str| format!("<clipPath id='c' {}>{inner}</clipPath>", rule("clip", around));
+        let target = frame("clip");
+        for clip in [clip(&target), format!("<defs>{target}</defs>{}", clip("<use href='#f'/>"))] {
+            let cut = drawn(&format!("{clip}<g clip-path='url(#c)'>{BOX}</g>")).world;
+            assert_eq!(area(&cut, "box"), if open { 6.0 } else { 8.0 }, "{clip}");
+        }
+    }
+}
+
+#[test]
+fn clip_paths_of_what_does_not_show_are_counted_like_others() {
+    let post = "<circle id='post' r='1'/>";
+    let cuts: String =
+        (0..1_000).map(|k| format!("<g transform='translate(.{k:04})' clip-path='url(#c)'>{BOX}</g>")).collect();
+    let hidden = "<rect display='none'/><g/><circle r='1' visibility='hidden'/>".repeat(100);
+    let deep = format!("{}<clipPath id='c'/>{}", "<g>".repeat(900), "</g>".repeat(900));
+    for clip in [format!("<clipPath id='c'>{hidden}</clipPath>"), deep] {
+        let found = drawn(&format!("{clip}{cuts}{post}"));
+        assert_eq!(names(&found.world), ["post"]);
+        assert!(found.notes.iter().any(|note| note.ends_with("the clip paths of the drawing are too large")), "{clip}");
+    }
+}

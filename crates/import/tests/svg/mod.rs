@@ -4,7 +4,9 @@ mod clips;
 mod coordinates;
 mod fills;
 mod paint;
+mod reach;
 mod round;
+mod styles;
 mod transforms;
 mod units;
 

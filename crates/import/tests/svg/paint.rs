@@ -108,3 +108,38 @@ fn the_paper_goes_and_its_stroke_stays() {
         assert_eq!(names(&drawn.world), ["disc 1"], "{plain}");
     }
 }
+
+#[test]
+fn the_current_colour_is_that_of_the_element_that_inherits_the_word() {
+    for (around, own, shows) in [
+        ("fill='currentColor' color='red'", "color='transparent'", false),
+        ("fill='currentColor' color='transparent'", "color='red'", true),
+        ("fill='currentcolor' color='#0000'", "", false),
+        ("fill='currentColor' color='#0000'", "color='currentColor'", false),
+        ("fill='currentColor' color='red'", "color='currentColor'", true),
+        ("fill='url(#nowhere) currentColor' color='red'", "color='transparent'", false),
+        ("fill='url(#nowhere) currentColor'", "", true),
+        ("fill='url(#there) currentColor' color='transparent'", "", true),
+        ("fill='currentColor' color='transparent'", "fill='initial'", true),
+        ("fill='none' color='red'", "fill='inherit'", false),
+    ] {
+        let there = "<pattern id='there'><rect width='1' height='1'/></pattern><circle id='post' r='1'/>";
+        let world = drawn(&format!("{there}<g {around}><rect id='room' {RECT} {own}/></g>")).world;
+        assert_eq!(world.obstacle("room").is_some(), shows, "{around} {own}");
+    }
+}
+
+/// Drawings whose shapes took time, and memory, in proportion to what they inherit.
+#[test]
+fn long_texts_that_very_many_shapes_inherit_are_read_once() {
+    let shapes = "<rect width='1' height='1'/>".repeat(20_000);
+    let long = "x".repeat(4_000_000);
+    for inherited in
+        [format!("fill='{long}'"), format!("fill='#f0f' stroke='url(#{long}) red'"), format!("color='{long}'")]
+    {
+        assert_eq!(drawn(&format!("<g {inherited}>{shapes}</g>")).world.obstacles.len(), 20_000);
+    }
+    let used = drawn(&format!("<defs><g id='g'>{shapes}</g></defs><use id='{long}' href='#g'/>")).world;
+    let last = &used.obstacles[19_999].name;
+    assert!(last.starts_with("xxx") && last.ends_with("x 20000") && last.len() <= 200, "{last}");
+}
