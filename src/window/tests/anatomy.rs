@@ -181,7 +181,7 @@ fn code_and_command_are_copied() {
 }
 
 #[test]
-fn the_second_prompt_shows_its_scene_once_it_is_answered() {
+fn a_prompt_shows_its_scene_once_it_is_answered() {
     let mut harness = on("intersects");
     let guess = |harness: &mut Harness<'_, Lab>, question: &str, text: &str| {
         assert!(["Show", "Next question"].iter().all(|name| harness.query_by_label(name).is_none()), "hidden");
@@ -199,7 +199,10 @@ fn the_second_prompt_shows_its_scene_once_it_is_answered() {
     guess(&mut harness, "the links are given a radius of 3 cm", "0.03");
     click(&mut harness, "Next question");
     assert!(harness.query_by_label_contains("0.170").is_none());
-    guess(&mut harness, "How far from it is link 2 at", "0.17043");
+    guess(&mut harness, "How far from it is the bare arm", "0.2");
+    harness.get_by_label_contains("Off by +0.2000 m: it is 0.000000 m. The tip is in the middle of the square");
+    click(&mut harness, "Next question");
+    guess(&mut harness, "How far from the square", "0.17043");
     harness.get_by_label_contains("Right: 0.170435 m. The nearest point is the square's corner");
     click(&mut harness, "Show");
     assert_eq!(anatomy(&harness).world().name, "Exercise 3");

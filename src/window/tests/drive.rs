@@ -257,10 +257,19 @@ fn a_cockpit_comes_to_the_front_and_the_robot_in_hand_is_let_go() {
     assert!(paper(&harness, "Apartment").width() > 500.0);
 }
 
-/// A solution of exercise 4: for how many ticks which channels are held. Found by a search over such lists with the
-/// equations of car and trailer.
-const ONE_METRE_LEFT: [(u32, i16, i16); 6] =
-    [(12, 128, 38), (35, 128, -47), (18, 128, 116), (15, -128, 9), (28, -128, 104), (27, -128, 127)];
+/// A solution of exercise 4, found by a search over such scripts with the equations of car and trailer.
+const ONE_METRE_LEFT: &str = include_str!("../../../examples/exercises/one_metre_left.ron");
+
+/// For how many ticks which channels are held.
+fn held() -> Vec<(u64, [i16; 2])> {
+    let script = motion_lab_sim::run::Script::parse("one_metre_left.ron", ONE_METRE_LEFT).unwrap();
+    let drives = script.events.iter().filter_map(|event| match event.input {
+        RobotInput::Drive(ahead, left) => Some((event.tick, [ahead, left])),
+        _ => None,
+    });
+    let drives: Vec<(u64, [i16; 2])> = drives.collect();
+    drives.windows(2).map(|pair| (pair[1].0 - pair[0].0, pair[0].1)).collect()
+}
 
 #[test]
 fn one_metre_to_the_left_is_driven_scored_and_tried_again() {
@@ -288,7 +297,7 @@ fn one_metre_to_the_left_is_driven_scored_and_tried_again() {
     harness.run_steps(3);
     let contacts = harness.state().robot(2).contacts;
     click(&mut harness, "goal: one metre to the left");
-    for (ticks, ahead, left) in ONE_METRE_LEFT {
+    for (ticks, [ahead, left]) in held() {
         assert!(harness.query_by_label_contains("Reached").is_none());
         input(&mut harness, RobotInput::Drive(ahead, left));
         (0..ticks).for_each(|_| tick(&mut harness));

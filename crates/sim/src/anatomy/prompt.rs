@@ -81,7 +81,7 @@ impl PromptSeries {
 
     fn prompts(self) -> &'static [fn() -> Prompt] {
         match self {
-            PromptSeries::Queries => &[thick_links, exercise_3, first_contact, rusty],
+            PromptSeries::Queries => &[thick_links, touching, exercise_3, first_contact, rusty],
             PromptSeries::Tips => &[stretched, too_far, within],
         }
     }
@@ -102,12 +102,27 @@ fn thick_links() -> Prompt {
     }
 }
 
+/// The first half of exercise 3.
+fn touching() -> Prompt {
+    Prompt {
+        id: "exercise 3, first",
+        question: "A square of side 0.2 stands around (1, 1). How far from it is the bare arm at q = (0, \u{3c0}/2)?",
+        unit: "m",
+        // three decimals
+        tolerance: 0.5e-3,
+        moral: "The tip is in the middle of the square: the distance of what overlaps or touches is 0.",
+        asked: PromptQuestion::Distance,
+        shown: Anatomy::exercise_3().with_tab(Tab::Distance),
+    }
+}
+
+/// The second half of exercise 3.
 fn exercise_3() -> Prompt {
     let mut tilted = Anatomy::exercise_3();
     tilted.set_coordinate(1, FRAC_PI_2 + 0.3);
     Prompt {
         id: "exercise 3",
-        question: "At q = (0, \u{3c0}/2) link 2 touches the square. How far from it is link 2 at (0, \u{3c0}/2 + 0.3)?",
+        question: "Joint 2 turns on by 0.3, to (0, \u{3c0}/2 + 0.3). How far from the square of side 0.2 around (1, 1) is link 2 then?",
         unit: "m",
         // three decimals
         tolerance: 0.5e-3,
@@ -259,6 +274,7 @@ mod tests {
         for (id, right, wrong) in [
             ("thick links", "0.0307", "0.0308"),
             ("thick links", " 0.03066 m ", "0.0607"),
+            ("exercise 3, first", "0", "0.1"),
             ("exercise 3", "0.1704", "0.171"),
             ("first contact", "1.4009 rad", "1.4846"),
             ("the rover", "0.89", "1"),
@@ -272,6 +288,8 @@ mod tests {
             assert!(matches!(off, Ok(Guess::Off { by, .. }) if by > 0.0), "{wrong} {off:?}");
         }
         assert!(matches!(exercise.check(0.0), Guess::Off { by, .. } if by < 0.0), "touching is what it was before");
+        let questions = ["exercise 3, first", "exercise 3"].map(|id| prompt(id).question);
+        assert!(!questions[0].contains("touch") && !questions[1].contains("touch"), "neither gives the first away");
         for text in ["", "much", "inf", "NaN", "1e999"] {
             assert_eq!(thick.check_text(text), Err(NoGuess(text.into())));
         }

@@ -5,6 +5,7 @@ mod car;
 mod contacts;
 pub mod crowd;
 mod driving;
+mod exercises;
 mod kinds;
 mod refusals;
 mod state;
