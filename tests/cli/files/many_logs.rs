@@ -80,6 +80,37 @@ fn seeds_of_which_one_would_write_over_an_input_are_refused_before_the_first_is_
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn two_seeds_never_have_one_log_by_links_of_files_or_folders() {
+    use std::os::unix::fs::symlink;
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    for deep in ["a/2", "b/1", "c"] {
+        fs::create_dir_all(at.join(deep)).unwrap();
+    }
+    symlink("2", at.join("a/1")).unwrap();
+    symlink("1", at.join("b/2")).unwrap();
+    symlink("2.mcap", at.join("c/1.mcap")).unwrap();
+    symlink("3.mcap", at.join("c/4.mcap")).unwrap();
+    let record = |seeds: &str, output: &str| {
+        run_in(at, &["record", "--ticks", "2", "--seeds", seeds, "--threads", "1", "-o", output])
+    };
+    for (seeds, output, twice) in [
+        ("1..3", "a/{seed}/run.mcap", "a/2/run.mcap: it is named twice, also as a/1/run.mcap"),
+        ("1..3", "b/{seed}/run.mcap", "b/2/run.mcap: it is named twice, also as b/1/run.mcap"),
+        ("1..3", "c/{seed}.mcap", "c/2.mcap: it is named twice, also as c/1.mcap"),
+        ("3..5", "c/{seed}.mcap", "c/4.mcap: it is named twice, also as c/3.mcap"),
+    ] {
+        let error = record(seeds, output).failed(2);
+        assert!(error.contains(twice), "{error}");
+    }
+    // a link to a file of no other seed is written there
+    record("3..4", "c/{seed}.mcap").done();
+    record("1..2", "c/{seed}.mcap").done();
+    assert!(at.join("c/1.mcap").is_symlink() && at.join("c/2.mcap").is_file());
+}
+
 #[test]
 fn a_sweep_of_which_a_log_would_be_its_study_is_refused_before_its_first_row() {
     let folder = folder();

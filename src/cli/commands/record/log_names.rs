@@ -37,9 +37,19 @@ impl LogNames {
     /// # Errors
     /// [`Failure::Usage`] with the log's name and the input's.
     pub fn check(&self, seeds: SeedRange) -> Result<(), Failure> {
+        self.there(seeds).iter().try_for_each(|log| Target::check_log(log))
+    }
+
+    /// Whether no two of these seeds have one log. Where `{seed}` names folders only, or a log is a link, it may be so.
+    pub fn are_apart(&self, seeds: SeedRange) -> bool {
+        let name = Path::new(&self.0).file_name().unwrap_or_default();
+        name.to_string_lossy().contains(SEED) && !self.there(seeds).iter().any(|log| log.is_symlink())
+    }
+
+    /// The logs of these seeds that may be there, whole or unfinished.
+    fn there(&self, seeds: SeedRange) -> Vec<PathBuf> {
         let (folder, before) = self.before_seed();
-        let there = numbers_in(folder, before);
-        there.range(seeds.first..seeds.end).try_for_each(|seed| Target::check_log(&self.log(*seed)))
+        numbers_in(folder, before).range(seeds.first..seeds.end).map(|seed| self.log(*seed)).collect()
     }
 
     /// The folder in whose names the first `{seed}` stands, and what stands before it there.
@@ -65,6 +75,29 @@ mod tests {
         ] {
             let names = LogNames::of(Path::new(output)).unwrap();
             assert_eq!(names.before_seed(), (Path::new(folder), before), "{output}");
+        }
+    }
+
+    #[test]
+    fn logs_are_apart_by_their_own_names_but_not_by_links_or_folders() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("2.mcap"), "").unwrap();
+        let are_apart = |name: &str, first, end| {
+            LogNames::of(&folder.path().join(name)).unwrap().are_apart(SeedRange { first, end })
+        };
+        for (name, expected) in
+            [("{seed}.mcap", true), ("{seed}/a-{seed}.mcap", true), ("{seed}/run.mcap", false), ("{seed}/..", false)]
+        {
+            assert_eq!(are_apart(name, 0, 9), expected, "{name}");
+        }
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink("3.mcap", folder.path().join("5.mcap")).unwrap();
+            assert_eq!(
+                [(0, 9), (5, 6), (0, 5), (6, 9)].map(|(first, end)| are_apart("{seed}.mcap", first, end)),
+                [false, false, true, true]
+            );
+            assert!(are_apart("x{seed}.mcap", 0, 9));
         }
     }
 }

@@ -34,8 +34,10 @@ fn record_each(
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
     let output = options.output.as_deref().map(LogNames::of).transpose()?;
+    let mut are_apart = false;
     if let Some(names) = &output {
         names.check(seeds)?;
+        are_apart = names.are_apart(seeds);
     }
     let kind = options.kind(&recipe.config);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
@@ -51,7 +53,11 @@ fn record_each(
             let recipe = Recipe { seed: Seed(seed), ..recipe.clone() };
             let ended = match output.as_ref().map(|names| names.log(seed)) {
                 Some(log) => Target::log(&log).and_then(|target| {
-                    write_run(&recipe, kind, None, stop, &target).map(|ended| (ended, Some(target.older())))
+                    let (ended, older) = (write_run(&recipe, kind, None, stop, &target), target.older());
+                    if are_apart {
+                        target.release();
+                    }
+                    ended.map(|ended| (ended, Some(older)))
                 }),
                 None => run(&recipe, stop, |_| {}).map(|ended| (ended, None)),
             };
