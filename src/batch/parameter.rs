@@ -2,7 +2,7 @@
 
 use super::values::AxisValue;
 use motion_lab_core::configuration::{RobotKind, Sizes};
-use motion_lab_core::names::nearest;
+use motion_lab_core::names::{hint, nearest};
 use motion_lab_core::worlds::{BeamModel, Resident, ResidentSensor, World};
 
 #[derive(Clone, Debug, PartialEq)]
@@ -305,7 +305,7 @@ impl RobotParameter {
             }
             RobotParameter::Sensor { sensor, number: name } => {
                 let all = resident.sensors.iter().map(|own| own.name.as_str());
-                let meant = nearest(sensor, all).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+                let meant = hint(nearest(sensor, all));
                 let sensor = resident.sensors.iter_mut().find(|own| own.name == *sensor);
                 let own: &mut ResidentSensor = sensor.ok_or_else(|| format!("it has no such sensor{meant}"))?;
                 match *name {

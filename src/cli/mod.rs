@@ -33,6 +33,7 @@ Exit codes:
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
   75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare` keeps what it finished
+ 130  ended at once by Ctrl-C or a termination signal
 
 Data goes to standard output, messages to standard error.";
 

@@ -32,6 +32,11 @@ pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) ->
     nearest(name, known).map_or(String::new(), |other| format!("Did you mean {other:?}? "))
 }
 
+/// `; did you mean "Rusty"?`, for the end of a sentence; nothing where no name is near.
+pub fn hint(nearest: Option<&str>) -> String {
+    nearest.map_or(String::new(), |other| format!("; did you mean {other:?}?"))
+}
+
 /// How many letters have to be put in, left out, replaced, or exchanged with the next one, to make one word the other
 /// (the optimal string alignment distance).
 fn mistakes(a: &[char], b: &[char]) -> usize {
@@ -77,6 +82,8 @@ mod tests {
         assert_eq!(nearest("door", ["door1", "door2"]), Some("door1"));
         assert_eq!(nearest(&"a".repeat(200), [&*"A".repeat(200)]), Some(&*"A".repeat(200)));
         assert_eq!(did_you_mean("Rusti", ["Rusty", "Reach"]), "Did you mean \"Rusty\"? ");
+        assert_eq!(hint(nearest("Rusti", ["Rusty", "Reach"])), "; did you mean \"Rusty\"?");
+        assert_eq!(hint(nearest("Lot", ["Rusty", "Reach"])), "");
     }
 
     #[test]

@@ -7,8 +7,8 @@ use crate::batch::parameter::{Parameter, RobotParameter, Sources};
 use crate::batch::study_text::{GoalText, StudyItem, StudyText};
 use crate::batch::values::Over;
 use motion_lab_core::configuration::{RobotKind, Sizes, WrittenCoordinate};
-use motion_lab_core::names::nearest;
-use motion_lab_core::worlds::{BeamModel, Resident, World, WorldProblem};
+use motion_lab_core::names::{hint, nearest};
+use motion_lab_core::worlds::{BeamModel, OutsideError, Resident, World, WorldProblem};
 
 /// What is wrong with a robot's sizes or noise, when all axes have their values.
 pub fn check(kind: &str, sizes: Option<&Sizes>, noise: Option<BeamModel>) -> Option<String> {
@@ -23,8 +23,7 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
         let names: Vec<&str> = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str()).take(20).collect();
         let there = if names.is_empty() { "none".into() } else { names.join(", ") };
         let all = worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str());
-        let meant = nearest(robot, all).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
-        SweepProblem::Robot { robot: robot.to_owned(), there: there + &meant }
+        SweepProblem::Robot { robot: robot.to_owned(), there: there + &hint(nearest(robot, all)) }
     };
     if let Some(robot) = study.robots.iter().find(|name| find(name).is_none()) {
         return Err((StudyItem::Robots, unknown(robot)));
@@ -49,14 +48,23 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
     if let Some(wrong) = within.iter().find(|tolerance| **tolerance < 0.0) {
         return Err((StudyItem::Goal, SweepProblem::Tolerance(*wrong)));
     }
-    check_goal(robot, at, worlds).map_err(|problem| (StudyItem::Goal, problem))
+    check_goal_somewhere(robot, at, worlds).map_err(|problem| (StudyItem::Goal, problem))
+}
+
+/// Whether the goal lies within a world of its robot, for each of these worlds that has the robot.
+pub fn goal_checks<'a>(
+    robot: &'a str,
+    at: &'a [f64],
+    worlds: impl IntoIterator<Item = &'a World>,
+) -> impl Iterator<Item = Result<(), OutsideError>> {
+    let residents = worlds.into_iter().flat_map(|world| world.robots.iter().map(move |resident| (world, resident)));
+    let own = residents.filter(move |(_, resident)| resident.name == robot);
+    own.map(move |(world, resident)| world.check_position(&resident.kind, "goal", at))
 }
 
 /// Checks that the goal lies within some world of its robot. Where an axis chooses another world, the row says so.
-fn check_goal(robot: &str, at: &[f64], worlds: &[&World]) -> Result<(), SweepProblem> {
-    let residents = worlds.iter().flat_map(|world| world.robots.iter().map(move |resident| (world, resident)));
-    let own = residents.filter(|(_, resident)| resident.name == robot);
-    let mut checked = own.map(|(world, resident)| world.check_position(&resident.kind, "goal", at)).peekable();
+fn check_goal_somewhere(robot: &str, at: &[f64], worlds: &[&World]) -> Result<(), SweepProblem> {
+    let mut checked = goal_checks(robot, at, worlds.iter().copied()).peekable();
     let first = checked.peek().cloned();
     if checked.any(|within| within.is_ok()) {
         return Ok(());
@@ -92,8 +100,7 @@ pub fn make_axes(study: &StudyText, worlds: &[&World]) -> Result<Vec<CheckedAxis
         let refused = |problem| (StudyItem::Axis(i), problem);
         let parameter = Parameter::named(&text.vary, worlds).map_err(|there| {
             let meant = Parameter::meant(&text.vary, worlds);
-            let meant = meant.map_or(String::new(), |name| format!("; did you mean {name:?}?"));
-            refused(SweepProblem::Parameter(there + &meant))
+            refused(SweepProblem::Parameter(there + &hint(meant.as_deref())))
         })?;
         if let Some(before) = axes.iter().position(|axis| axis.parameter.overlaps(&parameter)) {
             return Err(refused(SweepProblem::Twice(before)));

@@ -13,7 +13,7 @@ use super::planning::{Planning, PlanningResult};
 use super::row::{RowValue, RunRow};
 use super::study_text::{Bundle, FORMAT, GoalText, StudyItem, StudyText, digest_of};
 use super::values::AxisValue;
-use checks::{check, check_planner, check_robots, make_axes, planned_unit, robot_columns};
+use checks::{check, check_planner, check_robots, goal_checks, make_axes, planned_unit, robot_columns};
 use draft::{RunDraft, generated};
 use motion_lab_core::configuration::{Kinds, RobotKind, WrittenCoordinate};
 use motion_lab_core::random::Seed;
@@ -211,7 +211,7 @@ impl Study {
             let refused = |(i, reason): (usize, OutsideError)| format!("{}: {reason}", world.robots[i].name);
             world.check_residents().map_err(refused)?;
         }
-        self.check_goal(&worlds)?;
+        self.check_goal_everywhere(&worlds)?;
         let inputs = match (&draft.planner, &draft.script) {
             (Some(planner), _) => RunInputs::Planner(planner.planning(self.goal(), &worlds)?),
             (None, None) => RunInputs::Script(Script::empty()),
@@ -225,14 +225,10 @@ impl Study {
         Ok(RunSetup { seed: Seed(draft.seed), config, inputs })
     }
 
-    /// Checks that the goal lies within the world of its robot.
-    fn check_goal(&self, worlds: &[World]) -> Result<(), String> {
+    /// Checks that the goal lies within every world of its robot.
+    fn check_goal_everywhere(&self, worlds: &[World]) -> Result<(), String> {
         let Some(goal @ GoalText { robot, .. }) = self.goal() else { return Ok(()) };
-        let at = &goal.at();
-        let residents = worlds.iter().flat_map(|world| world.robots.iter().map(move |resident| (world, resident)));
-        let mut own = residents.filter(|(_, resident)| resident.name == *robot);
-        own.try_for_each(|(world, resident)| world.check_position(&resident.kind, "goal", at))
-            .map_err(|reason| format!("{robot}: {reason}"))
+        goal_checks(robot, &goal.at(), worlds).collect::<Result<(), _>>().map_err(|reason| format!("{robot}: {reason}"))
     }
 
     /// Checks that there is a run that can be, in studies of at most [`MAX_TRIED`] runs.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use motion_lab::app::{Opened, WindowError, open_in_window, run_window};
+use motion_lab::app::{Opened, WindowError, open_in_window};
 use motion_lab::worlds::World;
 
 use crate::cli::support::choices::WorldNames;
@@ -52,9 +52,10 @@ fn found(what: &str) -> Result<Opened, Failure> {
     })
 }
 
-/// Opens the window with the tour.
+/// Opens the window with the tour: the program without a command, unless it is built to record the tour.
+#[cfg(not(feature = "headless"))]
 pub fn tour() -> Result<Outcome, Failure> {
-    ended(run_window())
+    ended(motion_lab::app::run_window())
 }
 
 /// The code with which Ctrl-C or a termination signal closes the window.

@@ -1,7 +1,8 @@
 //! The gate that every input and every output of a command passes: no file is both, and none is written twice.
 //!
 //! An input is noted when it is opened, an output when its target is claimed, which a command does before it begins to
-//! write. Whichever comes second is refused.
+//! write; of the logs of many runs it then checks those that could be an input, and claims each before its run.
+//! Whichever comes second is refused.
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -53,7 +54,7 @@ impl FilePlace {
 }
 
 /// The name in lower case on systems whose disks usually don't tell the cases apart.
-fn as_on_disk(name: OsString) -> OsString {
+pub fn as_on_disk(name: OsString) -> OsString {
     if cfg!(any(windows, target_os = "macos")) { name.to_ascii_lowercase() } else { name }
 }
 
@@ -192,22 +193,44 @@ pub enum OutputKind {
     Other,
 }
 
+impl Gate {
+    /// Why a file is no output: it is an input, another output or standard output.
+    fn refusal(&self, output: &Path, id: Option<FileId>, place: &FilePlace) -> Option<Failure> {
+        if let Some(input) = self.inputs.find(id, Some(place)) {
+            return Some(both(output, input));
+        }
+        if let Some(other) = self.claimed.find(id, Some(place)).or_else(|| self.written.find(None, Some(place))) {
+            return Some(twice(output, &shown(other)));
+        }
+        (id.is_some() && id == file_of(&std::io::stdout())).then(|| twice(output, "standard output"))
+    }
+}
+
+/// The regular file of this name, if there is one, and its place.
+fn file_at(output: &Path) -> (Option<Metadata>, FilePlace) {
+    (fs::metadata(output).ok().filter(Metadata::is_file), FilePlace::of(output))
+}
+
+/// Refuses an output as [`claim`] would, and claims nothing.
+///
+/// # Errors
+/// [`Failure::Usage`] where it is the same file as an input, as another output or as standard output, by whatever name.
+pub fn check(output: &Path) -> Result<(), Failure> {
+    let (about, place) = file_at(output);
+    let refused = with_gate(|gate| gate.refusal(output, about.as_ref().and_then(id_of), &place));
+    refused.map_or(Ok(()), Err)
+}
+
 /// Claims a file for an output.
 ///
 /// # Errors
 /// [`Failure::Usage`] where it is the same file as an input, as another output or as standard output, by whatever name;
 /// where it is a log and the output is none.
 pub fn claim(output: &Path, kind: OutputKind) -> Result<(), Failure> {
-    let about = fs::metadata(output).ok().filter(Metadata::is_file);
-    let (id, place) = (about.as_ref().and_then(id_of), FilePlace::of(output));
-    let is_stdout = id.is_some() && id == file_of(&std::io::stdout());
+    let (about, place) = file_at(output);
+    let id = about.as_ref().and_then(id_of);
     let refused = with_gate(|gate| {
-        let input = gate.inputs.find(id, Some(&place)).map(|input| both(output, input));
-        let other = || {
-            let other = gate.claimed.find(id, Some(&place)).or_else(|| gate.written.find(None, Some(&place)));
-            other.map(|other| twice(output, &shown(other)))
-        };
-        let refused = input.or_else(other).or_else(|| is_stdout.then(|| twice(output, "standard output")));
+        let refused = gate.refusal(output, id, &place);
         if refused.is_none() {
             gate.claimed.add(id, Some(place), output);
         }
@@ -239,6 +262,16 @@ pub fn written(output: &Path) {
     });
 }
 
+/// Forgets an output, written or not: another one may be this file.
+pub fn release(output: &Path) {
+    let place = FilePlace::of(output);
+    with_gate(|gate| {
+        gate.claimed.ids.retain(|_, name| name != output);
+        gate.claimed.places.remove(&place);
+        gate.written.places.remove(&place);
+    });
+}
+
 /// Refuses a file that is a log, unless `--force` is given.
 fn spare_log(output: &Path) -> Result<(), Failure> {
     if FORCED.load(Ordering::Relaxed) || !is_log(output) {
@@ -256,4 +289,88 @@ fn is_log(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
     read.is_ok() && head.len() >= 8 && !matches!(Log::read_mcap(&head), Err(LogError::NotALog | LogError::Export))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::support::output::ReportedFile;
+    use crate::cli::support::target::{Target, partial_name};
+
+    /// A folder of which the gate knows nothing when it is gone: a later file may get the number of one in it.
+    struct PassingNames(tempfile::TempDir);
+
+    impl PassingNames {
+        fn new() -> Self {
+            PassingNames(tempfile::tempdir().unwrap())
+        }
+
+        fn file(&self, name: &str) -> PathBuf {
+            self.0.path().join(name)
+        }
+
+        /// How many names in it the gate knows.
+        fn known(&self) -> usize {
+            let is_here = |name: &&PathBuf| name.starts_with(self.0.path());
+            let of = |files: &FileSet| files.ids.values().chain(files.places.values()).filter(is_here).count();
+            with_gate(|gate| [&gate.inputs, &gate.claimed, &gate.written].map(of).iter().sum())
+        }
+    }
+
+    impl Drop for PassingNames {
+        fn drop(&mut self) {
+            with_gate(|gate| {
+                for files in [&mut gate.inputs, &mut gate.claimed, &mut gate.written] {
+                    files.ids.retain(|_, name| !name.starts_with(self.0.path()));
+                    files.places.retain(|_, name| !name.starts_with(self.0.path()));
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn a_log_that_is_released_is_forgotten_whatever_came_of_it() {
+        let folder = PassingNames::new();
+        let log = |number: u32| folder.file(&format!("{number}.mcap"));
+        for replacing in [2, 3] {
+            fs::write(log(replacing), "an older file").unwrap();
+        }
+        for number in 0..4 {
+            let target = Target::log(&log(number)).unwrap();
+            assert!(folder.known() >= 2, "the log and its unfinished name");
+            assert!(Target::log(&log(number)).is_err() && Target::check_log(&log(number)).is_err());
+            if [1, 2].contains(&number) {
+                fs::write(log(number), "whole").unwrap();
+                written(&log(number));
+                assert!(Target::log(&log(number)).is_err(), "it was written");
+            }
+            target.release();
+            assert_eq!(folder.known(), 0, "{number}");
+        }
+        Target::log(&log(0)).unwrap().release();
+    }
+
+    #[test]
+    fn a_log_that_is_whole_leaves_its_unfinished_name_free() {
+        let folder = PassingNames::new();
+        let log = folder.file("run.mcap");
+        let target = Target::log(&log).unwrap();
+        assert!(check(&partial_name(&log)).is_err());
+        ReportedFile::create(&target).unwrap().commit().unwrap();
+        assert!(check(&partial_name(&log)).is_ok() && check(&log).is_err());
+        assert_eq!(folder.known(), 1);
+    }
+
+    #[test]
+    fn a_check_claims_nothing() {
+        let folder = PassingNames::new();
+        let log = folder.file("run.mcap");
+        Target::check_log(&log).unwrap();
+        assert_eq!(folder.known(), 0);
+        let input = folder.file("run.mcap.partial");
+        fs::write(&input, "World()").unwrap();
+        read(&input, &File::open(&input).unwrap()).unwrap();
+        assert!(Target::check_log(&log).is_err());
+        assert!(check(&log).is_ok());
+    }
 }

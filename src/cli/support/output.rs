@@ -12,6 +12,7 @@ use crate::cli::{Data, Failure};
 /// A file that is being written: see [`output::PendingFile`].
 pub struct ReportedFile {
     path: PathBuf,
+    partial: Option<PathBuf>,
     file: output::PendingFile,
 }
 
@@ -20,13 +21,16 @@ impl ReportedFile {
     pub fn create(target: &Target) -> Result<Self, Failure> {
         let path = target.path();
         let file = output::PendingFile::create(path).map_err(|error| Failure::output(path, &error))?;
-        Ok(ReportedFile { path: path.to_owned(), file })
+        Ok(ReportedFile { path: path.to_owned(), partial: target.partial().map(Path::to_owned), file })
     }
 
-    /// Puts the file in its place.
+    /// Puts the file in its place. A log's other name, for one that stops early, is free then.
     pub fn commit(self) -> Result<(), Failure> {
         self.file.commit().map_err(|error| Failure::output(&self.path, &error))?;
         gate::written(&self.path);
+        if let Some(partial) = &self.partial {
+            gate::release(partial);
+        }
         Ok(())
     }
 

@@ -1,20 +1,28 @@
 //! `Target`, where a command's output goes, and what it says about it.
 
+use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use motion_lab::output::{PassingFolder, resolved};
 
 use super::console::note;
-use super::gate::{self, OutputKind, is_dash};
+use super::gate::{self, OutputKind, as_on_disk, is_dash};
 use crate::cli::{Data, Failure};
+
+/// Number of digits of the largest `u64`.
+const MAX_DIGITS: usize = 20;
 
 /// The target of an output: a file, or for `-` standard output, which gets the whole file when it is done.
 ///
-/// There is no other way to write a file than by its target, and no target of a file that is also an input or another
-/// output: see [`gate`]. A command makes its targets before it writes the first of them.
+/// Every file that an option names as an output is written by its target, and no target is of a file that is also an
+/// input or another output: see [`gate`]. A command makes its targets before it writes the first of them, but for the
+/// logs of many runs, which it [checks](Self::check_log) then.
 pub struct Target {
     path: PathBuf,
+    /// The name that is taken besides, for a log that stops early.
+    partial: Option<PathBuf>,
     /// The size of the file that is replaced, bytes.
     older: Option<u64>,
     /// The folder of a file that goes to standard output.
@@ -27,7 +35,12 @@ impl Target {
         if is_dash(output) {
             gate::claim_stdout()?;
             let folder = PassingFolder::new().map_err(|error| Failure::output(&std::env::temp_dir(), &error))?;
-            return Ok(Target { path: folder.path().join("output"), older: None, passing: Some(folder) });
+            return Ok(Target {
+                path: folder.path().join("output"),
+                partial: None,
+                older: None,
+                passing: Some(folder),
+            });
         }
         gate::claim(output, OutputKind::Other)?;
         Ok(Self::claimed(output))
@@ -44,8 +57,15 @@ impl Target {
             return Err(not_for_stdout());
         }
         gate::claim(output, OutputKind::Log)?;
-        gate::claim(&partial_name(output), OutputKind::Log)?;
-        Ok(Self::claimed(output))
+        let partial = partial_name(output);
+        gate::claim(&partial, OutputKind::Log)?;
+        Ok(Target { partial: Some(partial), ..Self::claimed(output) })
+    }
+
+    /// Refuses a log as [`log`](Self::log) would, and claims nothing.
+    pub fn check_log(output: &Path) -> Result<(), Failure> {
+        gate::check(output)?;
+        gate::check(&partial_name(output))
     }
 
     /// As [`log`](Self::log), for a log that goes on with the recording in `begun`, which may be what it replaces: all
@@ -58,15 +78,30 @@ impl Target {
             gate::claim(output, OutputKind::Log)?;
         }
         let partial = partial_name(output);
-        if resolved(&partial) != resolved(begun) {
+        let is_free = resolved(&partial) != resolved(begun);
+        if is_free {
             gate::claim(&partial, OutputKind::Log)?;
         }
-        Ok(Self::claimed(output))
+        Ok(Target { partial: is_free.then_some(partial), ..Self::claimed(output) })
     }
 
     fn claimed(output: &Path) -> Self {
         let older = fs::metadata(output).ok().filter(fs::Metadata::is_file).map(|about| about.len());
-        Target { path: output.to_owned(), older, passing: None }
+        Target { path: output.to_owned(), partial: None, older, passing: None }
+    }
+
+    /// The name that is taken besides, for a log that stops early.
+    pub fn partial(&self) -> Option<&Path> {
+        self.partial.as_deref()
+    }
+
+    /// Lets the gate forget the file, whether it was written or not. For logs of many runs that can't be one file, so
+    /// that what is kept of them does not grow with their number.
+    pub fn release(self) {
+        gate::release(&self.path);
+        if let Some(partial) = &self.partial {
+            gate::release(partial);
+        }
     }
 
     /// The size of the file that is replaced, bytes; `None` where there is none.
@@ -110,6 +145,22 @@ impl Target {
     }
 }
 
+/// The numbers that may follow `before` in the names of a folder: of `run-12.mcap`, 1 and 12 follow `run-`. None where
+/// the folder can't be listed.
+///
+/// An input is a file that is there, so of any number of logs only these can be one.
+pub fn numbers_in(folder: &Path, before: &str) -> BTreeSet<u64> {
+    let on_disk = |name: OsString| as_on_disk(name).to_string_lossy().into_owned();
+    let before = on_disk(before.into());
+    let numbers = |name: String| {
+        let rest = name.strip_prefix(&before).unwrap_or_default();
+        let digits = rest.bytes().take_while(u8::is_ascii_digit).count().min(MAX_DIGITS);
+        (1..=digits).filter_map(|length| rest[..length].parse().ok()).collect::<Vec<u64>>()
+    };
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    entries.flat_map(|entry| numbers(on_disk(entry.file_name()))).collect()
+}
+
 fn not_for_stdout() -> Failure {
     Failure::usage("-: this output is not for standard output", "Name a file: -o FILE.")
 }
@@ -119,4 +170,37 @@ pub fn partial_name(output: &Path) -> PathBuf {
     let mut name = output.as_os_str().to_owned();
     name.push(".partial");
     name.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_holds_every_number_that_its_digits_may_begin_with() {
+        for (before, name, numbers) in [
+            ("", "12.mcap", &[1, 12][..]),
+            ("", "a12.mcap", &[]),
+            ("run-", "run-705b9", &[7, 70, 705]),
+            ("run-", "run", &[]),
+            ("1", "123", &[2, 23]),
+            ("", "007", &[0, 7]),
+            ("x", "x18446744073709551616", &[1, 18, 184, 1844]),
+            ("", "\u{e9}1", &[]),
+            ("\u{e9}", "\u{e9}1\u{e9}", &[1]),
+        ] {
+            let folder = tempfile::tempdir().unwrap();
+            fs::write(folder.path().join(name), "").unwrap();
+            let found: Vec<u64> = numbers_in(folder.path(), before).into_iter().take(4).collect();
+            assert_eq!(found, numbers, "{before} {name}");
+        }
+        let folder = tempfile::tempdir().unwrap();
+        assert!(numbers_in(&folder.path().join("none"), "").is_empty());
+        for name in ["3", "20.mcap", &format!("{}0", u64::MAX)] {
+            fs::create_dir(folder.path().join(name)).unwrap();
+        }
+        let found = numbers_in(folder.path(), "");
+        assert_eq!(found.last(), Some(&u64::MAX), "the whole of the first 20 digits");
+        assert!(found.is_superset(&[2, 3, 20].into()), "of every name: {found:?}");
+    }
 }

@@ -2,5 +2,6 @@
 
 mod interrupts;
 mod loss;
+mod many_logs;
 mod names;
 mod pipes;

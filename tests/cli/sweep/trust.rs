@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use super::folder_with;
-use crate::cli::{Run, run_in};
+use crate::cli::{Run, SHUT, run_in};
 
 /// Three runs to a goal; the third starts outside the world.
 const STUDY: &str = "Sweep(version: 1, worlds: [\"lot\"], ticks: 20,
@@ -125,4 +125,24 @@ fn what_lies_outside_the_world_is_refused_by_name_and_more_than_a_turn_is_noted(
     assert_eq!(thetas, ["0", "1.5707963267948966", "-0.7853981633974483"]);
     let (_, thetas) = turned("Steps(\"0deg\", \"90deg\", 3)");
     assert_eq!(thetas, ["0", "0.7853981633974483", "1.5707963267948966"]);
+}
+
+#[test]
+fn a_goal_that_lies_in_one_of_the_worlds_is_refused_in_the_rows_of_the_other() {
+    let folder = folder_with(
+        "Sweep(version: 1, robots: [\"R\"], ticks: 4, goal: (robot: \"R\", at: [7, 1, 0], within: [0.1, 0.1, 3]),
+        axes: [(vary: \"world\", over: Names([\"small.ron\", \"large.ron\"]))])",
+    );
+    for (name, width) in [("small", 4), ("large", 8)] {
+        let bounds = format!("max: ({width}, 4)");
+        fs::write(folder.path().join(format!("{name}.ron")), SHUT.replace("max: (4, 4)", &bounds)).unwrap();
+    }
+    let ran = run_in(folder.path(), &["sweep", "plan.ron", "-o", "parts"]).done();
+    // nobody drives to the other goal
+    assert!(ran.contains("2 failed, of which 1 could not be run"), "{ran}");
+    run_in(folder.path(), &["sweep", "merge", "parts", "-o", "all.csv"]).done();
+    let table = fs::read_to_string(folder.path().join("all.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().skip(1).collect();
+    let said = "R: the goal (7, 1) lies outside the world, which reaches from (0, 0) to (4, 4)";
+    assert_eq!(rows.iter().map(|row| row.contains(said)).collect::<Vec<_>>(), [true, false], "{table}");
 }

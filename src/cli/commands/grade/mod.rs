@@ -22,7 +22,7 @@ use crate::cli::support::world_source::find_world_beside;
 use crate::cli::{Data, Failure, Outcome, say};
 use gradebook::Results;
 use graded::Graded;
-use submissions::{Found, ending};
+use submissions::{Submissions, ending};
 
 /// Grade scripts and logs by running them again at every seed of an assignment
 ///
@@ -98,7 +98,7 @@ impl GradeArgs {
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let form = self.form();
         let assignment = read_assignment(&self.assignment)?;
-        let Found { submissions: files, left_out } = submissions::find(&self.submissions, &self.assignment)?;
+        let Submissions { graded: files, left_out } = submissions::find(&self.submissions, &self.assignment)?;
         for (file, reason) in &left_out {
             say(format!("{}: left out: {reason}", file.display()));
         }

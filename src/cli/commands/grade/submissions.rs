@@ -17,9 +17,9 @@ const ENDINGS: [&str; 3] = ["ron", "mcap", "csv"];
 
 /// What the command line names.
 #[derive(Default)]
-pub struct Found {
-    /// The submissions, each of which gets a row.
-    pub submissions: Vec<PathBuf>,
+pub struct Submissions {
+    /// The submissions that are graded, each of which gets a row.
+    pub graded: Vec<PathBuf>,
     /// What is left out of the folders, each with the reason.
     pub left_out: Vec<(PathBuf, &'static str)>,
 }
@@ -28,30 +28,30 @@ pub struct Found {
 /// folders, by name, but for the file `assignment`; whatever else it holds is left out by name. A pattern with `*` or
 /// `?` that is no file's name stands for the files that match it. A folder or a pattern without any stays itself. Any
 /// other name is taken as it is, whether there is such a file or not.
-pub fn find(names: &[PathBuf], assignment: &Path) -> Result<Found, Failure> {
+pub fn find(names: &[PathBuf], assignment: &Path) -> Result<Submissions, Failure> {
     let own = fs::canonicalize(assignment).ok();
     let is_assignment = |file: &PathBuf| own.is_some() && fs::canonicalize(file).ok() == own;
-    let mut found = Found::default();
+    let mut submissions = Submissions::default();
     for name in names {
-        let before = found.submissions.len();
+        let before = submissions.graded.len();
         if name.is_dir() {
-            walk(name, 0, &mut found)?;
+            walk(name, 0, &mut submissions)?;
         } else if !name.exists() && is_pattern(name) {
-            matching(name, &mut found)?;
+            matching(name, &mut submissions)?;
         } else {
-            found.submissions.push(name.clone());
+            submissions.graded.push(name.clone());
             continue;
         }
-        let mut new = found.submissions.split_off(before);
+        let mut new = submissions.graded.split_off(before);
         new.retain(|file| !is_assignment(file));
         if new.is_empty() {
             // it gets a row that says so
             new.push(name.clone());
         }
-        found.submissions.append(&mut new);
+        submissions.graded.append(&mut new);
     }
-    found.left_out.retain(|(file, _)| !is_assignment(file));
-    Ok(found)
+    submissions.left_out.retain(|(file, _)| !is_assignment(file));
+    Ok(submissions)
 }
 
 /// The ending of a file's name in small letters; empty without one.
@@ -60,7 +60,7 @@ pub fn ending(path: &Path) -> String {
 }
 
 /// Why a file of a folder is no submission; `None` for one that is.
-fn left_out(file: &Path) -> Option<&'static str> {
+fn reason_left_out(file: &Path) -> Option<&'static str> {
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     if name.starts_with('.') {
         return Some("it is hidden");
@@ -83,41 +83,41 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// Adds the submissions in a folder and its folders, and names what it leaves out. Links to folders are not followed.
-fn walk(folder: &Path, depth: usize, found: &mut Found) -> Result<(), Failure> {
+fn walk(folder: &Path, depth: usize, submissions: &mut Submissions) -> Result<(), Failure> {
     for path in entries(folder)? {
         let reason = if !path.is_dir() {
-            left_out(&path)
+            reason_left_out(&path)
         } else if path.is_symlink() {
             Some("it is a link to a folder")
         } else if depth == DEEPEST {
             Some("it lies too deep in folders")
         } else {
-            walk(&path, depth + 1, found)?;
+            walk(&path, depth + 1, submissions)?;
             continue;
         };
         match reason {
-            None => push(path, found)?,
+            None => push(path, submissions)?,
             Some(reason) => {
-                found.check_room()?;
-                found.left_out.push((path, reason));
+                submissions.check_room()?;
+                submissions.left_out.push((path, reason));
             }
         }
     }
     Ok(())
 }
 
-impl Found {
+impl Submissions {
     fn check_room(&self) -> Result<(), Failure> {
-        if self.submissions.len() + self.left_out.len() < MAX_SUBMISSIONS {
+        if self.graded.len() + self.left_out.len() < MAX_SUBMISSIONS {
             return Ok(());
         }
         Err(Failure::input(format!("more than {MAX_SUBMISSIONS} submissions"), "Grade them in several parts."))
     }
 }
 
-fn push(path: PathBuf, found: &mut Found) -> Result<(), Failure> {
-    found.check_room()?;
-    found.submissions.push(path);
+fn push(path: PathBuf, submissions: &mut Submissions) -> Result<(), Failure> {
+    submissions.check_room()?;
+    submissions.graded.push(path);
     Ok(())
 }
 
@@ -126,7 +126,7 @@ fn is_pattern(name: &Path) -> bool {
 }
 
 /// Adds the files that a pattern matches.
-fn matching(pattern: &Path, found: &mut Found) -> Result<(), Failure> {
+fn matching(pattern: &Path, submissions: &mut Submissions) -> Result<(), Failure> {
     let mut places = vec![PathBuf::new()];
     for part in pattern.components() {
         let part = part.as_os_str();
@@ -149,7 +149,7 @@ fn matching(pattern: &Path, found: &mut Found) -> Result<(), Failure> {
         }
         places = next;
     }
-    places.into_iter().filter(|place| place.is_file()).try_for_each(|place| push(place, found))
+    places.into_iter().filter(|place| place.is_file()).try_for_each(|place| push(place, submissions))
 }
 
 /// Whether a name matches a pattern, in which `*` stands for any characters and `?` for one. A hidden file matches a

@@ -1,10 +1,9 @@
 //! Many seeds at once, their lines in order.
 
-use std::path::Path;
-
 use rayon::prelude::*;
 
 use super::args::RecordArgs;
+use super::log_names::LogNames;
 use super::one::{Ended, StopRule, refused_in_words, run, write_run};
 use super::seeds::SeedRange;
 use super::written::RecordedLogs;
@@ -34,7 +33,12 @@ fn record_each(
     written: &mut RecordedLogs,
     data: &mut Data,
 ) -> Result<Outcome, Failure> {
-    let output = template(options)?;
+    let output = options.output.as_deref().map(LogNames::of).transpose()?;
+    let mut are_apart = false;
+    if let Some(names) = &output {
+        names.check(seeds)?;
+        are_apart = names.are_apart(seeds);
+    }
     let kind = options.kind(&recipe.config);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(options.threads.unwrap_or(0))).build();
     let pool = pool.map_err(Failure::internal)?;
@@ -47,10 +51,13 @@ fn record_each(
         let end = seeds.end.min(first.saturating_add(batch));
         let one = |seed: u64| {
             let recipe = Recipe { seed: Seed(seed), ..recipe.clone() };
-            let log = output.as_ref().map(|template| template.replace("{seed}", &seed.to_string()));
-            let ended = match log.as_deref().map(Path::new) {
-                Some(log) => Target::log(log).and_then(|target| {
-                    write_run(&recipe, kind, None, stop, &target).map(|ended| (ended, Some(target.older())))
+            let ended = match output.as_ref().map(|names| names.log(seed)) {
+                Some(log) => Target::log(&log).and_then(|target| {
+                    let (ended, older) = (write_run(&recipe, kind, None, stop, &target), target.older());
+                    if are_apart {
+                        target.release();
+                    }
+                    ended.map(|ended| (ended, Some(older)))
                 }),
                 None => run(&recipe, stop, |_| {}).map(|ended| (ended, None)),
             };
@@ -99,16 +106,4 @@ fn record_each(
         say(format!("in {} {}", counted(runs, "run"), refused_in_words(count, &event)));
     }
     Ok(Outcome::Done)
-}
-
-/// The output's name with `{seed}` in it.
-fn template(options: &RecordArgs) -> Result<Option<String>, Failure> {
-    let Some(output) = &options.output else { return Ok(None) };
-    match output.to_str() {
-        Some(name) if name.contains("{seed}") => Ok(Some(name.to_owned())),
-        _ => Err(Failure::usage(
-            format!("{}: one name for many logs", output.display()),
-            "Put {seed} in it, as in -o runs/{seed}.mcap.",
-        )),
-    }
 }

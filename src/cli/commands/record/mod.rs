@@ -2,6 +2,7 @@
 
 mod args;
 mod choice;
+mod log_names;
 mod many;
 mod one;
 mod resume;

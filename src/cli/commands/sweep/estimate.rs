@@ -7,7 +7,7 @@ use motion_lab::batch::{Shard, Study};
 use motion_lab::output::PassingFolder;
 
 use super::keep::Keep;
-use super::one::{self, Ran};
+use super::one;
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::words::counted;
@@ -43,7 +43,7 @@ pub fn estimate(
     for i in 0..samples {
         // the first, then further and further apart, so that an early end leaves no part of the sweep out
         let row = rows.start + (i * 2_654_435_761) % samples * runs / samples;
-        let Ran::Row(row) = one::run(study, row, keep, folder.path())? else {
+        let Some(row) = one::run(study, row, keep, folder.path())? else {
             drop(progress);
             say(format!(
                 "stopped with {measured} of {} measured\nNothing is kept; start again.",

@@ -2,7 +2,7 @@
 
 use motion_lab::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunSetup};
 use motion_lab::configuration::RobotKind;
-use motion_lab::names::nearest;
+use motion_lab::names::{hint, nearest};
 use motion_lab::planning::{Effort, NoPath};
 use motion_lab::plans::{PathLengths, PlannerName, Task};
 use motion_lab::random::Seed;
@@ -111,7 +111,7 @@ fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), Strin
 pub fn named(name: &str) -> Result<PlannerName, String> {
     PlannerName::of(name).ok_or_else(|| {
         let names = PlannerName::ALL.map(PlannerName::id);
-        let meant = nearest(name, names).map_or(String::new(), |name| format!("; did you mean {name:?}?"));
+        let meant = hint(nearest(name, names));
         format!("there is no planner {name:?}; there are {}{meant}", names.join(", "))
     })
 }

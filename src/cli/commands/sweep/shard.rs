@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::io::BufReader;
+use std::ops::Range;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -12,12 +13,12 @@ use rayon::prelude::*;
 use super::journal::Journal;
 use super::keep::Keep;
 use super::merge;
-use super::one::{self, Ran};
+use super::one;
 use crate::cli::support::console::note;
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::CommandProgress;
-use crate::cli::support::target::Target;
+use crate::cli::support::target::{Target, numbers_in};
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 
@@ -37,6 +38,9 @@ pub fn run(
 ) -> Result<Outcome, Failure> {
     interrupt::listen();
     let logs = folder.join("logs");
+    if keep != Keep::None {
+        check_logs(&logs, shard.rows(study.runs()))?;
+    }
     let needed = if keep == Keep::None { folder } else { &logs };
     fs::create_dir_all(needed).map_err(|error| Failure::output(needed, &error))?;
     let part = folder.join(format!("part-{shard}.sweep"));
@@ -70,7 +74,7 @@ pub fn run(
         if interrupt::asked_to_stop() {
             return Ok(());
         }
-        let Ran::Row(row) = one::run(study, row, keep, &logs)? else { return Ok(()) };
+        let Some(row) = one::run(study, row, keep, &logs)? else { return Ok(()) };
         let line = row.to_line();
         journal.lock().unwrap_or_else(PoisonError::into_inner).add(row.row, &line)?;
         if row.is_failure(study.columns()) {
@@ -103,6 +107,11 @@ pub fn run(
         note(format!("For one table: motion-lab sweep merge {} -o table.parquet", folder.display()));
     }
     Ok(Outcome::Done)
+}
+
+/// Refuses these rows if the log of one, whole or unfinished, would be an input.
+fn check_logs(logs: &Path, rows: Range<u64>) -> Result<(), Failure> {
+    numbers_in(logs, "").range(rows).try_for_each(|row| Target::check_log(&one::log_name(logs, *row)))
 }
 
 /// Writes the full logs of rows that were run before. `false` where somebody asked to stop.
