@@ -276,14 +276,9 @@ fn a_term_lights_what_the_picture_draws_of_it_and_a_part_of_the_picture_its_term
     let lit = |h: &Harness<'_, Lab>| interface(h).lit;
     assert_eq!(lit(&harness), None);
     // by keyboard
-    for (term, role) in [
-        ("O: obstacle", Role::Obstacle),
-        ("R(q): robot", Role::Robot),
-        ("a*: robot", Role::Robot),
-        ("b*: obstacle", Role::Obstacle),
-        ("dist: witness", Role::Witness),
-    ] {
-        harness.get_by_label(term).focus();
+    use Role::{Obstacle, Robot, Witness};
+    for (term, role) in [("R(q)", Robot), ("O", Obstacle), ("a*", Robot), ("b*", Obstacle), ("dist", Witness)] {
+        harness.get_by_label(&format!("{term}: {}", role.name())).focus();
         harness.run_steps(3);
         assert_eq!(lit(&harness), Some(role), "{term}");
     }

@@ -155,7 +155,7 @@ fn a_plan_is_the_one_that_plan_finds_and_as_gif_it_grows() {
         let drawn = fs::read_to_string(&svg).unwrap();
         let length = format!("length {:.3} ", found["length"].as_f64().unwrap());
         assert!(drawn.contains(&length) && drawn.contains("configuration space"), "{length}: {plan:?}");
-        assert!(drawn.contains(&format!("{} iterations", found["iterations"])), "{found}");
+        assert!(drawn.contains(&format!("{} iterations", found["effort"]["iterations"])), "{found}");
     }
     run(&["capture", "--widget", "plan", "--width", "320", "-o", &gif]).done();
     let bytes = fs::read(&gif).unwrap();
@@ -166,7 +166,7 @@ fn a_plan_is_the_one_that_plan_finds_and_as_gif_it_grows() {
     }
     let found =
         crate::cli::json(&run(&["plan", "--json", "--robot", "Reach", "--from", "2.0,0", "--to", "3.1,0"]).done());
-    assert_eq!(pictures, found["iterations"].as_u64().unwrap().min(72), "a picture for each iteration");
+    assert_eq!(pictures, found["effort"]["iterations"].as_u64().unwrap().min(72), "a picture for each iteration");
     assert!(String::from_utf8_lossy(&bytes).contains("Planner: rrt-connect; Seed: 2005"));
 }
 
@@ -185,10 +185,10 @@ fn names_are_there_where_they_are_asked_for_and_lengths_have_units() {
     let teleport = ["capture", "--widget", "atlas", "--world", "lot", "--teleport", "5.5,5,1.2", "-o", out];
     run(&teleport).done();
     let svg = fs::read_to_string(&file).unwrap();
-    assert!(svg.contains(" m away, and nothing nearer than 0.") && svg.contains(" m is free"));
+    assert!(svg.contains(" m away"));
     let teleport = ["capture", "--widget", "atlas", "--world", "workbench", "--teleport", "2.55,0", "-o", out];
     run(&teleport).done();
-    assert!(fs::read_to_string(&file).unwrap().contains(" rad away, and nothing nearer than 0."));
+    assert!(fs::read_to_string(&file).unwrap().contains(" rad is free"));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod in_run;
+mod kept;
 mod observers;
 mod sequences;
 mod start;
