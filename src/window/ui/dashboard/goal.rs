@@ -190,7 +190,7 @@ mod tests {
         let words = "Reached: one metre to the left in 12.3 s, 1 reversal, 9.9 m driven.";
         assert_eq!((scored.words(&alone, 5).as_str(), scored.again().score), (words, None));
         let items = goal.items(&start);
-        assert!(items.iter().all(|item| item.role != Role::Goal), "red is contact alone");
+        assert!(items.iter().all(|item| (item.role == Role::Goal) == item.id.starts_with("goal/")), "the goal is red");
         let ids: Vec<&str> = items.iter().map(|item| item.id.as_str()).collect();
         assert!(["start/trailer/0", "goal/trailer/0", "goal/distance", "goal/angle"].iter().all(|id| ids.contains(id)));
     }
