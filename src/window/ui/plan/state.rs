@@ -6,12 +6,11 @@ use bevy::platform::time::Instant;
 
 use super::work::PlannerWork;
 use crate::window::ui::cspace::SpaceCells;
-use motion_lab_core::collision::{Checker, Collision};
+use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::AnyConfiguration;
-use motion_lab_core::picture::{Item, Picture, Role, world as picture_of};
+use motion_lab_core::picture::{Item, Picture, world as picture_of};
 use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
 use motion_lab_core::random::Seed;
-use motion_lab_core::robots::Robot;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::manifest::HintTask;
 use motion_lab_sim::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
