@@ -1,6 +1,6 @@
 //! The chapter's exercises whose solutions are files.
 
-use motion_lab_core::num::hypot;
+use motion_lab_core::num::{cos, hypot, sin};
 use motion_lab_core::robots::HITCH;
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{Frame, Script};
@@ -16,7 +16,7 @@ fn the_trailer_ends_one_metre_to_the_left_with_the_same_heading_after_one_revers
     let log = Run::record(config, (BOOK_SEED, script)).unwrap();
     let car = |frame: &Frame| frame.robots[hitch].configuration.to_vec();
     let behind = HITCH.with_trailer().hitch_len.unwrap();
-    let trailer = |q: &[f64]| [q[0] - behind * q[3].cos(), q[1] - behind * q[3].sin()];
+    let trailer = |q: &[f64]| [q[0] - behind * cos(q[3]), q[1] - behind * sin(q[3])];
     let (from, to) = (car(&log.frames()[1]), car(log.frames().last().unwrap()));
     assert_eq!(from, [6.5, 2.5, 0.0, 0.0]);
     let ([x, y], [a, b]) = (trailer(&from), trailer(&to));
