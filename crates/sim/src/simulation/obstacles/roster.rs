@@ -227,7 +227,7 @@ pub(crate) fn with_roster<T>(world: &mut World, work: impl FnOnce(&mut World, &m
     })
 }
 
-/// Puts an obstacle somewhere. The scene follows with [`refresh`], its entity with [`show`].
+/// Puts an obstacle somewhere. The scene follows with [`refresh`], its entity with [`show`](super::dress::show).
 pub(crate) fn place(ground: &mut WorldObstacles, number: usize, placement: Placement) {
     let Some(entry) = ground.entries.get_mut(number).filter(|e| e.now != placement) else { return };
     entry.now = placement;
