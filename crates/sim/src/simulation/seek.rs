@@ -6,8 +6,9 @@ use super::obstacles::change::RefusedChanges;
 use super::obstacles::dress::show;
 use super::robot::contact;
 use super::truth::leave_start;
+use super::truth::put_back::put_values_back;
 use super::truth::settle;
-use super::truth::touched::at_work;
+use super::truth::touched::{ForeignTouches, at_work};
 use super::{Keyframes, RestoreError, SimulationSchedule, Transport, state::put_frame};
 use crate::run::Frame;
 
@@ -20,9 +21,11 @@ pub fn step(world: &mut World) {
 }
 
 /// [`step`] of a world that nobody but the simulation has had in hand since the last tick: its values need no look.
-/// Where somebody observes contacts, or the run stands at tick 0, others may have had it, and it is a step.
+/// Where somebody observes contacts, or obstacles were moved, or the run stands at tick 0, others may have had it, and
+/// it is a step.
 pub(crate) fn step_alone(world: &mut World) {
-    if world.resource::<Transport>().tick == 0 || contact::are_observed(world) {
+    let has_shown = std::mem::take(&mut world.resource_mut::<ForeignTouches>().has_shown);
+    if has_shown || world.resource::<Transport>().tick == 0 || contact::are_observed(world) {
         step(world)
     } else {
         advance_and_show(world)
@@ -52,7 +55,7 @@ pub fn seek(world: &mut World, tick: u64) -> Result<(), RestoreError> {
     let now = world.resource::<Transport>().tick;
     let keyframe = world.resource::<Keyframes>().before(tick).filter(|f| tick < now || f.tick > now);
     if let Some(frame) = keyframe.cloned() {
-        at_work(world, |world| put_frame(world, &frame))?;
+        put_frame_at_work(world, &frame)?;
     }
     while world.resource::<Transport>().tick < tick {
         advance(world);
@@ -78,8 +81,15 @@ pub fn extend_frontier(world: &mut World, tick: u64) {
 /// all the same.
 pub fn restore(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
     settle(world);
-    at_work(world, |world| put_frame(world, frame))?;
+    put_frame_at_work(world, frame)?;
     show(world);
+    Ok(())
+}
+
+/// Puts the simulation into the state of a frame, whatever observers make of it.
+fn put_frame_at_work(world: &mut World, frame: &Frame) -> Result<(), RestoreError> {
+    at_work(world, |world| put_frame(world, frame))?;
+    put_values_back(world);
     Ok(())
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::{RangeSensor, SensorError};
-use motion_lab_core::worlds::{ResidentSensorError, RouteError, World, check_sensors};
+use motion_lab_core::worlds::{Resident, ResidentSensorError, RouteError, World, check_sensors};
 
 /// The seed of every run printed in the book.
 pub const BOOK_SEED: Seed = Seed(2005);
@@ -88,6 +88,17 @@ impl TourConfig {
     /// The robots' names by ascending id.
     pub fn robot_names(&self) -> impl Iterator<Item = &str> {
         self.worlds.iter().flat_map(|w| &w.robots).map(|r| r.name.as_str())
+    }
+
+    /// The robot of an id, with the number of its world.
+    pub(crate) fn resident(&self, mut id: usize) -> Option<(usize, &Resident)> {
+        for (w, world) in self.worlds.iter().enumerate() {
+            match world.robots.get(id) {
+                Some(resident) => return Some((w, resident)),
+                None => id -= world.robots.len(),
+            }
+        }
+        None
     }
 
     /// Checks whether this can be run. The worlds themselves were checked when they were made.

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use bevy::prelude::{Entity, With, World as Ecs};
+use bevy::ecs::relationship::Relationship;
+use bevy::prelude::{Entity, RelationshipTarget, With, World as Ecs};
 use motion_lab_core::configuration::Configuration as _;
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{AnyRobot, Hitch, Reach, Rusty};
@@ -10,9 +11,9 @@ use motion_lab_core::worlds::{Obstacle, Resident};
 use motion_lab_sim::run::RobotState;
 use motion_lab_sim::simulation::{
     Configuration, Contacts, Control, Cut, Door, DrawnTour, DriveMode, LatestFrame, MountedOn, ObstacleOf,
-    ObstacleShape, OwnState, Placement, PreviousConfiguration, ResidesIn, RobotId, RobotModel, RobotName, Roster,
-    RunConfig, Scan, SensorModel, SensorMount, SensorName, SensorNoise, SensorRoster, SimulatedRobot, SimulatedWorld,
-    Slip, StandingWorld, TickMotion, Transport, WorldScene, recipe,
+    ObstacleShape, Obstacles, OwnState, Placement, PreviousConfiguration, Residents, ResidesIn, RobotId, RobotModel,
+    RobotName, Roster, RunConfig, Scan, SensorModel, SensorMount, SensorName, SensorNoise, SensorRoster, Sensors,
+    SimulatedRobot, SimulatedWorld, Slip, StandingWorld, TickMotion, Transport, WorldScene, recipe,
 };
 
 /// Fails unless the entities of the run are those of its configuration, with the components that configuration and
@@ -51,6 +52,25 @@ pub(crate) fn assert_agrees(world: &mut Ecs) {
         obstacles(world, w, entity);
     }
     sensors(world, &robots, &residents);
+    for &entity in &worlds {
+        lists::<Obstacles>(world, entity);
+        lists::<Residents>(world, entity);
+    }
+    robots.iter().for_each(|&robot| lists::<Sensors>(world, robot));
+}
+
+/// Checks that an entity lists those that say that they belong to it, each once.
+#[track_caller]
+fn lists<T: RelationshipTarget>(world: &mut Ecs, entity: Entity) {
+    let mut listed: Vec<Entity> = world.get::<T>(entity).into_iter().flat_map(RelationshipTarget::iter).collect();
+    let mut all = world.query::<(Entity, &T::Relationship)>();
+    let mut belonging: Vec<Entity> =
+        all.iter(world).filter(|(_, of)| of.get() == entity).map(|(entity, _)| entity).collect();
+    // what an observer despawns at once is listed after that
+    listed.retain(|entity| world.get_entity(*entity).is_ok());
+    listed.sort_unstable();
+    belonging.sort_unstable();
+    assert_eq!(listed, belonging, "{}", std::any::type_name::<T>());
 }
 
 /// Checks a robot.

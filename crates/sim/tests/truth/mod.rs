@@ -6,6 +6,7 @@ mod kept;
 mod observers;
 mod sequences;
 mod start;
+mod types;
 
 use bevy::prelude::{Entity, Messages, World as Ecs};
 use bevy::time::TimePlugin;

@@ -1,13 +1,14 @@
 //! Observers of others, which answer what the simulation itself spawns, inserts and removes.
 
-use bevy::prelude::{Add, App, Commands, Entity, Insert, Local, On, Query, With};
+use bevy::prelude::{Add, App, Commands, Entity, Insert, Local, On, Query, Res, With};
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{RUSTY, Rusty};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{Script, WorldChange, WorldEvent};
 use motion_lab_sim::simulation::{
-    Configuration, MountedOn, Placement, RobotId, RobotModel, RobotName, RunConfig, Scan, SimulatedWorld, settle,
+    Configuration, MountedOn, Placement, RobotId, RobotModel, RobotName, RunConfig, Scan, SimulatedWorld, Transport,
+    settle,
 };
 
 use super::*;
@@ -147,4 +148,42 @@ fn observers_of_obstacles_that_move_in_a_run_take_nothing_from_it() {
         });
     });
     assert!(said.iter().any(|text| text.starts_with("obstacle \"gate\"") && text.ends_with(gone)), "{said:?}");
+}
+
+#[test]
+fn what_a_script_adds_is_there_once_however_often_a_run_begins() {
+    let mut app = with(|app| _ = app.add_observer(|_: On<Add, RobotId>| ()));
+    let at = motion_lab_sim::run::Quantized(1 << 20);
+    let add = WorldChange::Add { name: "crate".into(), points: vec![(at, at)], radius: at };
+    let script = Script::new(vec![], vec![WorldEvent { tick: 5, world: "yard".into(), change: add }]);
+    let count = |app: &mut App| {
+        let mut all = app.world_mut().query::<&motion_lab_sim::simulation::ObstacleShape>();
+        all.iter(app.world()).filter(|shape| shape.name == "crate").count()
+    };
+    for _ in 0..3 {
+        start_run(app.world_mut(), config(), (Seed(7), script.clone())).unwrap();
+        settle(app.world_mut());
+        let a = robot(app.world(), "A");
+        app.world_mut().get_mut::<Configuration<Rusty>>(a).unwrap().0.x += 0.125;
+        steps(app.world_mut(), 6);
+        assert_eq!(count(&mut app), 1);
+        assert_recorded(app.world());
+    }
+}
+
+#[test]
+fn an_observer_in_a_recorder_changes_no_bit_either() {
+    let close = WorldEvent { tick: 12, world: "yard".into(), change: WorldChange::Close("gate".into()) };
+    let recipe = motion_lab_sim::run::Recipe::new(config(), (Seed(7), Script::new(vec![], vec![close])));
+    let writes = |_: On<Insert, Placement>, now: Res<Transport>, mut rovers: Query<&mut Configuration<Rusty>>| {
+        // what it does to the start would be the start
+        if now.tick() > 0 {
+            rovers.iter_mut().for_each(|mut q| q.0.x += 0.5);
+        }
+    };
+    let mut recorder = Recorder::of_with_robots(&recipe, |app| _ = app.add_observer(writes)).unwrap();
+    let mut alone = Recorder::of(&recipe).unwrap();
+    for _ in 0..20 {
+        assert_eq!(recorder.step().digest(), alone.step().digest());
+    }
 }

@@ -215,6 +215,15 @@ fn the_last_drive_mode_that_is_written_holds_and_the_script_does_not_grow() {
         DriveMode { manual: true, channels: [5, 0], target: None, refusals: 0 };
     settle(world);
     assert_eq!(refused(world).len(), 2);
+    // no script holds an angle of so many turns
+    *world.get_mut::<DriveMode<Reach<2>>>(d).unwrap() = DriveMode {
+        manual: true,
+        channels: [0; 2],
+        target: Some(motion_lab_core::configuration::Tn([20_000.0, 0.5])),
+        refusals: 0,
+    };
+    settle(world);
+    assert_eq!(refused(world).len(), 1);
     // nor has it any on its way
     *world.get_mut::<DriveMode<Reach<2>>>(d).unwrap() =
         DriveMode { manual: true, channels: [5, 0], target: Some(T2::new(0.75, 0.5)), refusals: 0 };
@@ -381,19 +390,4 @@ fn events_of_robots_and_doors_that_are_gone_leave_the_script_aloud() {
     assert_eq!(refused(app.world_mut()), ["there is no robot \"A\"", "there is no door \"gate\" in world \"yard\""]);
     steps(app.world_mut(), 8);
     assert_recorded(app.world());
-}
-
-#[test]
-fn a_kind_registered_twice_with_one_type_is_told_by_its_name() {
-    use motion_lab_sim::simulation::RobotPlugin;
-    let mut app = App::new();
-    let big = Rusty { body_radius: 0.3, max_speed: 0.2, ..RUSTY };
-    app.add_plugins((TimePlugin, SimulationPlugin, RobotPlugin::new("x-big", big)));
-    start_run(app.world_mut(), config(), Seed(7)).unwrap();
-    let a = robot(app.world(), "A");
-    app.world_mut().entity_mut(a).insert((RobotModel(big), RobotName::new("A", "x-big")));
-    app.update();
-    assert!(refused(app.world_mut()).is_empty());
-    let resident = app.world().resource::<RunConfig>().config().worlds[0].robots[0].clone();
-    assert_eq!((resident.kind.as_str(), resident.sizes), ("x-big", None));
 }

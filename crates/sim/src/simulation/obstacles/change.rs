@@ -4,7 +4,7 @@ use bevy::prelude::*;
 
 use super::roster::{ObstacleRoster, WorldObstacles, place, refresh, wanted, with_roster};
 use crate::run::WorldEvent;
-use crate::simulation::{Placement, Residents, RobotId, RobotName, RobotOps};
+use crate::simulation::{Placement, Residents, ResidesIn, RobotId, RobotName, RobotOps};
 use motion_lab_core::collision::touch;
 use motion_lab_core::geometry::Placed;
 
@@ -35,6 +35,7 @@ fn in_the_way(world: &World, ground: &WorldObstacles, number: usize, placement: 
     let mut robots: Vec<(RobotId, Entity)> = world
         .get::<Residents>(ground.entity())?
         .iter()
+        .filter(|robot| world.get::<ResidesIn>(*robot).is_some_and(|of| of.0 == ground.entity()))
         .filter_map(|robot| Some((*world.get::<RobotId>(robot)?, robot)))
         .collect();
     robots.sort_unstable();

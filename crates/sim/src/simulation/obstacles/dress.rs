@@ -6,6 +6,7 @@ use bevy::prelude::*;
 
 use super::roster::{ObstacleRoster, refresh, with_roster};
 use crate::simulation::truth::thing::RunThing;
+use crate::simulation::truth::touched::{ForeignTouches, at_work};
 use crate::simulation::{Door, ObstacleOf, ObstacleShape, Obstacles, Placement, Roster, SimulatedWorld};
 
 /// Gives a world of the run its components and its scene anew, on an entity of its own if it has lost it.
@@ -60,15 +61,18 @@ pub(crate) fn show(world: &mut World) {
     if world.resource::<ObstacleRoster>().grounds.iter().all(|ground| ground.unshown.is_empty()) {
         return;
     }
-    with_roster(world, |world, roster| {
-        for ground in &mut roster.grounds {
-            for number in std::mem::take(&mut ground.unshown) {
-                if let Some(entry) = ground.entries.get(number)
-                    && let Ok(mut entity) = world.get_entity_mut(entry.entity)
-                {
-                    entity.insert(entry.now);
-                }
+    let mut placed: Vec<(Entity, Placement)> = Vec::new();
+    for ground in &mut world.resource_mut::<ObstacleRoster>().grounds {
+        let unshown = std::mem::take(&mut ground.unshown);
+        let entries = unshown.into_iter().filter_map(|number| ground.entries.get(number));
+        placed.extend(entries.map(|entry| (entry.entity, entry.now)));
+    }
+    at_work(world, |world| {
+        for (entity, placement) in placed {
+            if let Ok(mut entity) = world.get_entity_mut(entity) {
+                entity.insert(placement);
             }
         }
     });
+    world.resource_mut::<ForeignTouches>().has_shown = true;
 }

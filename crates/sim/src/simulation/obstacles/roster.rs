@@ -134,6 +134,11 @@ impl WorldObstacles {
         self.entries.iter().filter(|e| !matches!(e.source, ShapeSource::Added(_))).map(|e| e.entity)
     }
 
+    /// The entities of the obstacles that the script adds.
+    pub(crate) fn added(&self) -> impl Iterator<Item = Entity> + '_ {
+        self.entries.iter().filter(|e| matches!(e.source, ShapeSource::Added(_))).map(|e| e.entity)
+    }
+
     /// The entity of an obstacle. It may be despawned.
     pub(crate) fn entity_of(&self, number: usize) -> Option<Entity> {
         Some(self.entries.get(number)?.entity)

@@ -8,7 +8,9 @@ use bevy::prelude::*;
 use super::dress::undress;
 use super::roster::{WorldObstacles, moved, refresh, with_roster};
 use crate::simulation::truth::thing::RunThing;
-use crate::simulation::{CommandError, CommandRefused, Door, ObstacleShape, Obstacles, Placement, SimulatedWorld};
+use crate::simulation::{
+    CommandError, CommandRefused, Door, ObstacleOf, ObstacleShape, Obstacles, Placement, SimulatedWorld,
+};
 use crate::tour::TourConfig;
 use motion_lab_core::geometry::{Pose2, Shape};
 use motion_lab_core::worlds::{Door as DoorModel, Obstacle, World as WorldModel};
@@ -26,6 +28,9 @@ pub(crate) fn follow_obstacles(world: &mut World, config: &mut TourConfig, lost:
                 let found = gather(world, ground, model);
                 (model.obstacles, model.doors, entities) = found;
             }
+            // what the script adds is spawned anew, unless somebody has made it an obstacle of the world
+            let added: Vec<Entity> = ground.added().filter(|added| !entities.contains(&Some(*added))).collect();
+            added.into_iter().for_each(|added| _ = world.try_despawn(added));
             let (start, entity) = (Arc::new(model.clone()), ground.entity());
             *ground = WorldObstacles::new(entity, w, Arc::clone(&start), &entities);
             ground.dress_all(world);
@@ -43,8 +48,9 @@ fn gather(
     ground: &WorldObstacles,
     model: &WorldModel,
 ) -> (Vec<Obstacle>, Vec<DoorModel>, Vec<Option<Entity>>) {
+    let is_here = |entity: &Entity| world.get::<ObstacleOf>(*entity).is_some_and(|of| of.0 == ground.entity());
     let there: BTreeSet<Entity> =
-        world.get::<Obstacles>(ground.entity()).into_iter().flat_map(Obstacles::iter).collect();
+        world.get::<Obstacles>(ground.entity()).into_iter().flat_map(Obstacles::iter).filter(is_here).collect();
     let known: Vec<Entity> = ground.entities().filter(|e| there.contains(e)).collect();
     let of_file: BTreeSet<Entity> = known.iter().copied().collect();
     let mut new: Vec<(&str, Entity)> = there

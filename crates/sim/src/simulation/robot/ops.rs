@@ -1,5 +1,6 @@
 //! `RobotOps`, the operations of exclusive systems on a robot whose type they do not know.
 
+use std::any::TypeId;
 use std::cell::OnceCell;
 
 use bevy::prelude::*;
@@ -23,6 +24,8 @@ use motion_lab_core::geometry::{Footprint, Placed, Pose2};
 #[derive(Component, Clone, Copy, Debug)]
 #[component(immutable)]
 pub struct RobotOps {
+    /// The robot's type.
+    pub(crate) of_type: TypeId,
     /// Applies an input, or counts it as refused and says why. The last argument gives the parts of the other robots of
     /// its world.
     pub(crate) apply: fn(&mut World, Entity, &RobotInput, &dyn Fn(&World) -> Vec<Placed>) -> Option<InputRefusal>,
@@ -52,6 +55,7 @@ pub struct RobotOps {
 impl RobotOps {
     pub(crate) fn of<R: SimulatedRobot>() -> Self {
         RobotOps {
+            of_type: TypeId::of::<R>(),
             apply: apply::<R>,
             footprint: footprint::<R>,
             gauges: gauges::<R>,

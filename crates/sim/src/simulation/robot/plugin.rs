@@ -10,7 +10,7 @@ use super::spawn::spawn_robot;
 use crate::simulation::schedule::{CrowdSystems, KindSystems, TickPhase};
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::truth::last_values::LastValues;
-use crate::simulation::truth::touched::AtStart::{Followed, PutBack};
+use crate::simulation::truth::touched::AtStart::{Followed, Model, WithModel};
 use crate::simulation::truth::watch::{watch as watch_unnamed, watch_components};
 use crate::simulation::{
     Configuration, Contacts, Control, Cut, DrawnTour, DriveMode, OwnState, PreviousConfiguration, RobotModel, RobotOps,
@@ -49,8 +49,8 @@ impl<R: SimulatedRobot> RobotPlugin<R> {
 /// Watches the components of a type of robots.
 fn watch<R: SimulatedRobot>(world: &mut World) {
     watch_components!(world, Followed, Configuration<R>, DriveMode<R>);
-    watch_components!(world, PutBack, PreviousConfiguration<R>, Control<R>, Contacts<R>, OwnState<R>);
-    watch_components!(world, PutBack, DrawnTour<R>, TickMotion<R>, Cut<R>);
+    watch_components!(world, WithModel, PreviousConfiguration<R>, Control<R>, Contacts<R>, OwnState<R>);
+    watch_components!(world, WithModel, DrawnTour<R>, TickMotion<R>, Cut<R>);
     let kept = world.register_component::<LastValues<R>>();
     watch_unnamed(world, &[kept]);
 }
@@ -113,7 +113,7 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
         if app.world().contains_resource::<SystemsOf<R>>() {
             return;
         }
-        watch_components!(app.world_mut(), Followed, RobotModel<R>);
+        watch_components!(app.world_mut(), Model, RobotModel<R>);
         app.insert_resource(SystemsOf::<R> { number, installed: false, of: std::marker::PhantomData });
         let sets = [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle, KindSystems::Encode];
         for set in sets {

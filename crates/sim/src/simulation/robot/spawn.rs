@@ -224,12 +224,15 @@ fn spawn(world: &mut World, request: &SpawnRequest) -> Result<Entity, SpawnError
 /// it has at the present tick.
 pub(crate) fn respawn(world: &mut World, id: usize) {
     let (config, seed) = (Arc::clone(world.resource::<RunConfig>().config()), world.resource::<Transport>().seed);
-    let found = config.worlds.iter().enumerate().flat_map(|(w, m)| m.robots.iter().map(move |r| (w, r))).nth(id);
-    let (Some((w, resident)), Some(&old)) = (found, world.resource::<Roster>().robots.get(id)) else { return };
+    let (Some((w, resident)), Some(&old)) = (config.resident(id), world.resource::<Roster>().robots.get(id)) else {
+        return;
+    };
     let (entity, model) = (world.get_entity(old).is_ok().then_some(old), &config.worlds[w]);
     let kind = world.resource::<RobotKinds>().kind(&resident.kind).map(|kind| kind.of_type);
     let of_type = kind.and_then(|of_type| world.resource::<RobotKinds>().types().get(of_type).copied());
-    let (Some(of_type), Ok(routes)) = (of_type, routes(model, seed)) else { return };
+    // all routes of a world are drawn at once, for those that follow one
+    let routes = if resident.route.is_some() { routes(model, seed) } else { Ok(RouteTours::default()) };
+    let (Some(of_type), Ok(routes)) = (of_type, routes) else { return };
     let kept = entity.and_then(|entity| (of_type.last_values)(world, entity));
     let (about, of_world) =
         (world.resource::<RobotKinds>().about(&resident.kind), world.resource::<Roster>().worlds[w]);
@@ -253,7 +256,9 @@ pub(crate) fn respawn(world: &mut World, id: usize) {
     match kept {
         Some(kept) => kept(world, entity),
         None => {
-            let state = world.resource::<LatestFrame>().0.robots.get(id).cloned();
+            let states = &world.resource::<LatestFrame>().0.robots;
+            let at = states.binary_search_by_key(&(id as u32), |state| state.id).ok();
+            let state = at.map(|i| states[i].clone());
             let ops = world.get::<RobotOps>(entity).copied();
             state.zip(ops).and_then(|(state, ops)| (ops.decode)(world, entity, &state));
         }

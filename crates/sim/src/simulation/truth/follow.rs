@@ -34,8 +34,9 @@ use motion_lab_core::worlds::Resident;
 /// Makes the run follow its entities, if others have changed one. The robots keep the order of their ids, then come new
 /// ones by their names; so do obstacles. What can't be in the run is refused.
 pub(super) fn follow(world: &mut World) {
-    put_scans_back(world);
+    let scans = put_scans_back(world);
     let mut values = follow_values(world);
+    values.said.extend(scans);
     let mut touched = world.resource_mut::<ForeignTouches>();
     let is_unsettled = std::mem::take(&mut touched.is_unsettled) || values.has_moved;
     let touched = std::mem::take(&mut touched.entities);
@@ -48,7 +49,7 @@ pub(super) fn follow(world: &mut World) {
         let lost = put_worlds_back(world, &touched);
         follow_new_values(world, &mut values);
         at_work(world, |world| follow_entities(world, &lost));
-        refuse_put_back(world, &touched);
+        refuse_put_back(world, &touched, &values.said);
     }
     follow_script(world, values.inputs);
     let is_other =
@@ -63,6 +64,8 @@ struct WrittenValues {
     has_moved: bool,
     /// The inputs that drive modes stand for, by the robot, whose name and id may change yet.
     inputs: Vec<(Entity, Vec<RobotInput>)>,
+    /// What was refused, by entity and component.
+    said: BTreeSet<(Entity, String)>,
 }
 
 /// Takes what others have written into the robots of the run.
@@ -72,31 +75,33 @@ fn follow_values(world: &mut World) -> WrittenValues {
         let robot = world.resource::<Roster>().robots[id];
         let Some(RobotOps { follow, .. }) = world.get::<RobotOps>(robot).copied() else { continue };
         let followed = at_work(world, |world| follow(world, robot));
-        let thing = thing_name(world, RunThing::Robot(id));
-        take_values(world, (robot, thing), followed, &mut values);
+        take_values(world, robot, |world| thing_name(world, RunThing::Robot(id)), followed, &mut values);
     }
     values
 }
 
-/// Takes the drive modes of entities that are yet to become robots of the run.
+/// Takes the drive modes of entities that are yet to become robots of the run, or robots of another type.
 fn follow_new_values(world: &mut World, values: &mut WrittenValues) {
     let types = world.resource::<RobotKinds>().types().to_vec();
     for of_type in types {
         for robot in (of_type.models)(world) {
-            if matches!(thing_of(world, robot), Some(RunThing::Robot(_))) {
+            let is_known = matches!(thing_of(world, robot), Some(RunThing::Robot(_)));
+            if is_known && world.get::<RobotOps>(robot).is_some_and(|ops| ops.of_type == of_type.id) {
                 continue;
             }
             let followed = at_work(world, |world| (of_type.follow)(world, robot));
-            let name = world.get::<RobotName>(robot).map_or("", |name| name.name.as_str());
-            let thing = format!("robot {name:?}");
-            take_values(world, (robot, thing), followed, values);
+            let name = |world: &World| {
+                format!("robot {:?}", world.get::<RobotName>(robot).map_or("", |name| name.name.as_str()))
+            };
+            take_values(world, robot, name, followed, values);
         }
     }
 }
 
 fn take_values(
     world: &mut World,
-    (entity, thing): (Entity, String),
+    entity: Entity,
+    name: impl FnOnce(&World) -> String,
     followed: FollowedValues,
     values: &mut WrittenValues,
 ) {
@@ -105,22 +110,28 @@ fn take_values(
     if !inputs.is_empty() {
         values.inputs.push((entity, inputs));
     }
+    if refused.is_empty() {
+        return;
+    }
+    values.said.extend(refused.iter().map(|component| (entity, component.clone())));
+    let thing = name(world);
     let change = |component| ForeignChange { entity, thing: thing.clone(), component, is_of_run: true };
     refuse(world, refused.into_iter().map(change).collect());
 }
 
-/// Says which components of robots and sensors that are still there were put back.
-fn refuse_put_back(world: &mut World, touched: &BTreeMap<Entity, Touch>) {
+/// Says which components of robots and sensors that are still there were put back, but for what was `said` already.
+fn refuse_put_back(world: &mut World, touched: &BTreeMap<Entity, Touch>, said: &BTreeSet<(Entity, String)>) {
     for (&entity, touch) in touched.iter().filter(|(_, touch)| touch.thing.is_some()) {
         let Some(thing @ (RunThing::Robot(_) | RunThing::Sensor(_))) = thing_of(world, entity) else { continue };
-        let (thing, watched) = (thing_name(world, thing), world.resource::<ForeignTouches>());
-        let own = touch.components.iter().filter(|&&component| watched.is_put_back_at_start(component));
-        let change = |component: &str| {
-            let component = component.to_owned();
-            ForeignChange { entity, thing: thing.clone(), component, is_of_run: true }
-        };
-        let changes = own.map(|&component| change(watched.name(component))).collect();
-        refuse(world, changes);
+        let put_back = world.resource::<ForeignTouches>().put_back_at_start(touch);
+        let unsaid: Vec<String> =
+            put_back.into_iter().filter(|component| !said.contains(&(entity, component.clone()))).collect();
+        if unsaid.is_empty() {
+            continue;
+        }
+        let thing = thing_name(world, thing);
+        let change = |component| ForeignChange { entity, thing: thing.clone(), component, is_of_run: true };
+        refuse(world, unsaid.into_iter().map(change).collect());
     }
 }
 

@@ -3,7 +3,7 @@
 use bevy::prelude::*;
 
 use super::component_name::name_of;
-use crate::run::{Quantized, RobotInput};
+use crate::run::{Event, Quantized, RobotInput, Script};
 use crate::simulation::robot::driven::are_taken;
 use crate::simulation::{
     Configuration, Contacts, Control, DriveMode, OwnState, PreviousConfiguration, RobotModel, SimulatedRobot,
@@ -175,6 +175,8 @@ fn inputs_of_mode<R: SimulatedRobot>(world: &World, e: Entity) -> Option<Vec<Rob
     if let Some(target) = target {
         inputs.push(RobotInput::MoveTo(to(target)?));
     }
+    let event = |input: &RobotInput| Event { tick: 1, robot: "its robot".into(), input: input.clone() };
+    Script::new(inputs.iter().map(event).collect(), Vec::new()).check().ok()?;
     let (robot, q) = (world.get::<RobotModel<R>>(e)?, world.get::<Configuration<R>>(e)?);
     are_taken(&robot.0, &q.0, &inputs).then_some(inputs)
 }

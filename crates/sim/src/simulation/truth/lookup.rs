@@ -26,7 +26,7 @@ fn entity_of(world: &World, thing: RunThing) -> Option<Entity> {
 pub(crate) fn thing_name(world: &World, thing: RunThing) -> String {
     let config = world.get_resource::<RunConfig>().map(RunConfig::config);
     let world_name = |w: usize| config.and_then(|c| c.worlds.get(w)).map_or("", |w| w.name.as_str());
-    let robot_name = |id: usize| config.and_then(|c| c.robot_names().nth(id)).unwrap_or_default();
+    let robot_name = |id: usize| config.and_then(|c| c.resident(id)).map_or("", |(_, robot)| robot.name.as_str());
     match thing {
         RunThing::World(w) => format!("world {:?}", world_name(w)),
         RunThing::Robot(id) => format!("robot {:?}", robot_name(id)),

@@ -30,8 +30,8 @@ pub(super) use follow::leave_start;
 /// by a [`CommandRefused`](crate::simulation::CommandRefused).
 ///
 /// What observers change in answer to the simulation's own changes of an entity is not told from these. It is followed
-/// at the start of a run. Later a robot, a sensor or a world that has lost something so is put back all the same, and
-/// so are values.
+/// at the start of a run. Later what was despawned so, and values that were written, are put back all the same; other
+/// components that such an observer takes or replaces are not.
 pub fn settle(world: &mut World) {
     if !world.contains_resource::<Roster>() {
         return;

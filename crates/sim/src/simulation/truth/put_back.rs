@@ -1,9 +1,11 @@
 //! Puts back what others have changed of a run under way, and says so.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bevy::prelude::*;
 
+use super::component_name::name_of;
 use super::foreign_change::ForeignChange;
 use super::lookup::{shape_name, thing_name, thing_of, world_number};
 use super::thing::RunThing;
@@ -19,7 +21,9 @@ use crate::simulation::{
 /// Puts back the components that were inserted, replaced or removed, and the entities that were despawned. An entity
 /// that became an obstacle, a sensor or a robot in a run loses its components of the run.
 pub(crate) fn put_back(world: &mut World) {
-    let touched = std::mem::take(&mut world.resource_mut::<ForeignTouches>().entities);
+    let all = std::mem::take(&mut world.resource_mut::<ForeignTouches>().entities);
+    let (fresh, touched): (BTreeMap<_, _>, BTreeMap<_, _>) = all.into_iter().partition(|(_, touch)| touch.is_fresh);
+    world.resource_mut::<ForeignTouches>().entities = fresh;
     if touched.is_empty() {
         return;
     }
@@ -137,8 +141,9 @@ pub(crate) fn put_values_back(world: &mut World) {
     put_scans_back(world);
 }
 
-/// Puts back the readings of sensors that others have written.
-pub(super) fn put_scans_back(world: &mut World) {
+/// Puts back the readings of sensors that others have written. Returns what was refused, by entity and component.
+pub(super) fn put_scans_back(world: &mut World) -> Vec<(Entity, String)> {
+    let mut said = Vec::new();
     for k in 0..world.resource::<SensorRoster>().sensors.len() {
         let entity = world.resource::<SensorRoster>().sensors[k].entity;
         let ranges = world.resource::<LatestFrame>().0.scans.get(k).map(|scan| Arc::clone(&scan.ranges));
@@ -146,9 +151,11 @@ pub(super) fn put_scans_back(world: &mut World) {
         if !Arc::ptr_eq(&ranges, &scan.0) {
             scan.0 = ranges;
             let thing = thing_name(world, RunThing::Sensor(k));
-            refuse(world, vec![ForeignChange { entity, thing, component: "Scan".into(), is_of_run: true }]);
+            said.push((entity, name_of::<Scan>()));
+            refuse(world, vec![ForeignChange { entity, thing, component: name_of::<Scan>(), is_of_run: true }]);
         }
     }
+    said
 }
 
 /// Puts back a thing of the run that is not whole.

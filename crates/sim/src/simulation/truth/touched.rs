@@ -13,6 +13,8 @@ pub(crate) struct Touch {
     /// What the entity was in the run when it was first changed.
     pub(super) thing: Option<RunThing>,
     pub(super) components: BTreeSet<ComponentId>,
+    /// Whether a component was inserted whose hooks may have work to do yet. What was inserted is put back after that.
+    pub(super) is_fresh: bool,
 }
 
 /// What becomes of a component that others change while the run stands at tick 0.
@@ -20,8 +22,12 @@ pub(crate) struct Touch {
 pub(crate) enum AtStart {
     /// The run follows it.
     Followed,
+    /// The run follows it: it is the model of a robot.
+    Model,
     /// It is put back.
     PutBack,
+    /// It comes and goes with the model of a robot. Without a change of that it is put back.
+    WithModel,
 }
 
 /// A component that is watched.
@@ -46,6 +52,8 @@ pub(crate) struct ForeignTouches {
     pub(super) is_queued: bool,
     /// Whether something was changed, or may have been, before the run left tick 0.
     pub(crate) is_unsettled: bool,
+    /// Whether observers of placements were called since the last tick, who may have changed anything.
+    pub(crate) has_shown: bool,
 }
 
 impl ForeignTouches {
@@ -54,9 +62,16 @@ impl ForeignTouches {
         self.watched.get(&component).map_or("", |watched| &watched.name)
     }
 
-    /// Whether a component that others change at tick 0 is put back.
-    pub(super) fn is_put_back_at_start(&self, component: ComponentId) -> bool {
-        self.watched.get(&component).is_some_and(|watched| watched.at_start == AtStart::PutBack)
+    /// The names of the components of a touch at tick 0 that are put back.
+    pub(super) fn put_back_at_start(&self, touch: &Touch) -> Vec<String> {
+        let watched = || touch.components.iter().filter_map(|component| self.watched.get(component));
+        let has_other_model = watched().any(|component| component.at_start == AtStart::Model);
+        let is_put_back = |component: &&Watched| match component.at_start {
+            AtStart::Followed | AtStart::Model => false,
+            AtStart::PutBack => true,
+            AtStart::WithModel => !has_other_model,
+        };
+        watched().filter(is_put_back).map(|component| component.name.clone()).collect()
     }
 }
 

@@ -22,9 +22,9 @@ pub(crate) use watch_components;
 /// Watches components on all entities. Those without a name are put back in silence.
 pub(crate) fn watch(world: &mut World, components: &[ComponentId]) {
     let inserted =
-        Observer::new(|on: On<Insert>, world: DeferredWorld| note(world, on.entity, on.trigger().components));
+        Observer::new(|on: On<Insert>, world: DeferredWorld| note(world, on.entity, on.trigger().components, true));
     let discarded =
-        Observer::new(|on: On<Discard>, world: DeferredWorld| note(world, on.entity, on.trigger().components));
+        Observer::new(|on: On<Discard>, world: DeferredWorld| note(world, on.entity, on.trigger().components, false));
     for observer in [inserted, discarded] {
         world.spawn(observer.with_components(components.iter().copied()));
         world.resource_mut::<ForeignTouches>().observers += 1;
@@ -44,7 +44,7 @@ pub(crate) fn are_observers_of_others(world: &mut World) -> bool {
     all > world.resource::<ForeignTouches>().observers
 }
 
-fn note(mut world: DeferredWorld, entity: Entity, components: &[ComponentId]) {
+fn note(mut world: DeferredWorld, entity: Entity, components: &[ComponentId], is_inserted: bool) {
     let is_own = world.get_resource::<ForeignTouches>().is_none_or(|touched| touched.at_work > 0);
     if is_own {
         return;
@@ -59,17 +59,27 @@ fn note(mut world: DeferredWorld, entity: Entity, components: &[ComponentId]) {
     let touch = touched.entities.entry(entity).or_default();
     touch.thing = touch.thing.or(thing);
     touch.components.extend(components.iter().filter(|id| touched.watched.contains_key(id)));
-    if !std::mem::replace(&mut touched.is_queued, true) {
-        world.commands().queue(look);
+    // the hooks of what is discarded come after its observers, those of what is inserted before: a look at the former
+    // is early if something is inserted in its place
+    let is_new = if is_inserted {
+        !std::mem::replace(&mut touch.is_fresh, true)
+    } else {
+        !std::mem::replace(&mut touched.is_queued, true)
+    };
+    if is_new {
+        world.commands().queue(move |world: &mut World| look(world, is_inserted.then_some(entity)));
     }
 }
 
 /// Puts back what was changed in a run under way, at once. What was changed at tick 0 waits for
-/// [`settle`](super::settle).
-fn look(world: &mut World) {
+/// [`settle`](super::settle). The hooks of what was `inserted` are done.
+fn look(world: &mut World, inserted: Option<Entity>) {
     let at_start = world.resource::<Transport>().tick == 0;
     let mut touched = world.resource_mut::<ForeignTouches>();
-    touched.is_queued = false;
+    match inserted {
+        Some(entity) => touched.entities.get_mut(&entity).into_iter().for_each(|touch| touch.is_fresh = false),
+        None => touched.is_queued = false,
+    }
     if at_start {
         touched.is_unsettled = true;
     } else {

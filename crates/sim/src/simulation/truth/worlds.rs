@@ -9,7 +9,7 @@ use super::put_back::{put_thing_back, refuse};
 use super::thing::RunThing;
 use super::touched::{Touch, at_work};
 use crate::simulation::obstacles::roster::ObstacleRoster;
-use crate::simulation::{ObstacleOf, ResidesIn, Roster, RunConfig};
+use crate::simulation::{ObstacleOf, Obstacles, Residents, ResidesIn, Roster, RunConfig};
 
 /// Puts back what others have changed of the worlds, and says so. Returns the numbers of those that were despawned, and
 /// with them all that was in them.
@@ -47,11 +47,11 @@ fn give_back(world: &mut World, w: usize, entity: Entity) {
     let robots: Vec<Entity> = robots.copied().collect();
     let ground = world.resource::<ObstacleRoster>().grounds.get(w);
     let obstacles: Vec<Entity> = ground.into_iter().flat_map(|ground| ground.entities()).collect();
-    for robot in robots {
-        give::<ResidesIn>(world, robot, ResidesIn(entity));
+    if world.get::<Residents>(entity).is_none() {
+        robots.into_iter().for_each(|robot| give::<ResidesIn>(world, robot, ResidesIn(entity)));
     }
-    for obstacle in obstacles {
-        give::<ObstacleOf>(world, obstacle, ObstacleOf(entity));
+    if world.get::<Obstacles>(entity).is_none() {
+        obstacles.into_iter().for_each(|obstacle| give::<ObstacleOf>(world, obstacle, ObstacleOf(entity)));
     }
 }
 
