@@ -162,9 +162,12 @@ fn what_a_script_adds_is_there_once_however_often_a_run_begins() {
     };
     for _ in 0..3 {
         start_run(app.world_mut(), config(), (Seed(7), script.clone())).unwrap();
-        settle(app.world_mut());
-        let a = robot(app.world(), "A");
-        app.world_mut().get_mut::<Configuration<Rusty>>(a).unwrap().0.x += 0.125;
+        for _ in 0..2 {
+            let a = robot(app.world(), "A");
+            app.world_mut().get_mut::<Configuration<Rusty>>(a).unwrap().0.x += 0.125;
+            settle(app.world_mut());
+            assert_eq!(count(&mut app), 1);
+        }
         steps(app.world_mut(), 6);
         assert_eq!(count(&mut app), 1);
         assert_recorded(app.world());

@@ -8,8 +8,8 @@ use motion_lab_core::worlds::Resident;
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
 use motion_lab_sim::simulation::{
-    Configuration, DriveMode, ObstacleOf, OwnState, PendingInput, ResidesIn, RobotModel, RobotName, RunConfig,
-    SensorModel, SensorName, SimulatedWorld, Slip, TransportCommand, settle,
+    Configuration, DriveMode, ObstacleOf, OwnState, PendingInput, ResidesIn, RobotModel, RunConfig, SensorModel,
+    SensorName, SimulatedWorld, Slip, TransportCommand, settle,
 };
 
 use super::*;
