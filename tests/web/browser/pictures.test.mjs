@@ -127,7 +127,7 @@ lab("an angle has one spelling, the annulus's formula stands beside the space, a
         return `${letter.textContent}${index}${after?.tagName === "mn" ? ` ${after.textContent}` : ""}`;
       }),
   );
-  assert.deepEqual([...new Set(angles)].sort(), ["\u03b8", "\u03b81", "\u03b82", "\u03b83", "\u03b8i"]);
+  assert.deepEqual([...new Set(angles)].sort(), ["\u03b8", "\u03b81", "\u03b82", "\u03b83", "\u03b8i", "\u03b8k"]);
   // and on the canvas
   const names = (await lab.tree()).map((w) => w.name);
   assert.ok(names.some((name) => name.startsWith("\u03b8\u2081 and \u03b8\u2082")), names.join(" | "));
