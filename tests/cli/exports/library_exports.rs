@@ -32,7 +32,7 @@ fn trains() -> Log {
     first_ticks(&record(Seed(8)).unwrap(), 60)
 }
 
-/// The run as if it had so many ticks.
+/// The run as if it ended after `ticks` ticks.
 fn first_ticks(log: &Log, ticks: u64) -> Log {
     let config = TourConfig { ticks, ..TourConfig::clone(&log.recipe.config) };
     let recipe = Recipe { config: config.into(), ..log.recipe.clone() };

@@ -138,8 +138,8 @@ fn check_room(what: &'static str, there: usize) -> Result<(), WorldProblem> {
     if there < MAX_ITEMS { Ok(()) } else { Err(WorldProblem::TooMany { what }) }
 }
 
-/// Makes a name valid: without control characters, short enough for a number after it, or else `unnamed`. No more than
-/// its beginning is looked at, so that very many things may be named after one long text.
+/// Makes a name valid: without control characters, short enough for a number after it, or else `unnamed`. Only its
+/// beginning is read, so that many things may be named after one long text.
 fn good_name(wanted: &str) -> String {
     let clean: String = wanted.chars().take(10 * MAX_NAME).filter(|c| !c.is_control()).collect();
     let mut end = clean.len().min(MAX_NAME - 12);
@@ -162,7 +162,7 @@ mod tests {
         assert_eq!(world.claim("wall 2"), "wall 2");
         assert_eq!((world.numbered("wall"), world.numbered("wall")), ("wall 1".into(), "wall 3".into()));
         assert_eq!(world.claim(" \u{7}\n"), "unnamed");
-        // only the first 2,000 characters are looked at
+        // only the first 2,000 characters are read
         let late = |before: usize| "\u{7}".repeat(before) + "x";
         assert_eq!((world.claim(&late(1_999)), world.claim(&late(2_000))), ("x".into(), "unnamed 2".into()));
         let long = "é".repeat(300);

@@ -73,7 +73,7 @@ fn of(shapes: &[IrShape], i: usize) -> &IrShape {
     shapes.get(i).or(shapes.last()).unwrap_or(&IrShape::USUAL)
 }
 
-/// The number of points of so many objects: each shape is counted once, however many objects have the last one.
+/// The points of `number` objects, in time by the shapes: the last one may stand for any number of objects.
 fn points(shapes: &[IrShape], number: usize) -> usize {
     let own = shapes.iter().take(number).map(IrShape::points).fold(0, usize::saturating_add);
     let again = number.saturating_sub(shapes.len());

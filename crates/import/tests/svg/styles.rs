@@ -15,7 +15,7 @@ fn refused(selectors: usize, elements: usize) -> Result<usize, String> {
     Err(format!("d.svg: not supported: style sheets of {selectors} selectors for {elements} elements"))
 }
 
-/// Elements in so many groups, one in the other.
+/// Elements in `groups` groups, one in the other.
 fn nested(groups: usize, inside: &str) -> String {
     format!("{}{inside}{}", "<g>".repeat(groups), "</g>".repeat(groups))
 }

@@ -85,15 +85,17 @@ fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand)
     let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     let Some(now) = recipe(world) else { return Ok(()) };
     let event = WorldEvent { tick: tick + 1, world: name, change };
+    let continues = tick < frontier || looping;
     let mut changes = world.resource::<PendingInput>().script().changes.clone();
-    changes.retain(|c| c.tick <= event.tick);
+    // those of the next tick are forgotten where the run continues from here
+    changes.retain(|c| if continues { c.tick <= tick } else { c.tick <= event.tick });
     changes.push(event.clone());
     let script = Script::new(Vec::new(), changes);
     script.check().and_then(|()| script.check_worlds(&now.config.worlds))?;
     if let Some(refused) = refusal(world, &event) {
         return Err(CommandError::Change(refused));
     }
-    if tick < frontier || looping {
+    if continues {
         continue_from_here(world);
     }
     world.resource_mut::<PendingInput>().capture_change(event);

@@ -329,3 +329,26 @@ fn a_command_that_no_script_could_hold_is_counted_with_its_reason() {
         (2, "there is no robot \"nobody\"".to_owned())
     );
 }
+
+#[test]
+fn what_is_added_is_no_more_once_its_tick_is_forgotten() {
+    use motion_lab_sim::run::{Quantized, WorldChange};
+    use motion_lab_sim::simulation::WorldCommand;
+    let mut app = app();
+    steps(app.world_mut(), 5);
+    let of_world = |change| RunCommand::from(WorldCommand { world: "yard".into(), change });
+    let at = Quantized(1 << 20);
+    // a change of a looping run forgets what was to come with the next tick
+    let add = WorldChange::Add { name: "added".into(), points: vec![(at, at)], radius: Quantized(1 << 17) };
+    for command in
+        [of_world(add), TransportCommand::SetLooping(true).into(), of_world(WorldChange::Close("gate".into()))]
+    {
+        app.world_mut().write_message(command);
+    }
+    app.update();
+    assert_agrees(app.world_mut());
+    let script = motion_lab_sim::simulation::recipe(app.world()).unwrap().script;
+    assert_eq!(script.changes.iter().map(|c| c.change.name()).collect::<Vec<_>>(), ["gate"]);
+    steps(app.world_mut(), 3);
+    assert_recorded(app.world());
+}

@@ -215,7 +215,7 @@ fn the_last_drive_mode_that_is_written_holds_and_the_script_does_not_grow() {
         DriveMode { manual: true, channels: [5, 0], target: None, refusals: 0 };
     settle(world);
     assert_eq!(refused(world).len(), 2);
-    // no script holds an angle of so many turns
+    // no script holds an angle of 20,000 rad
     *world.get_mut::<DriveMode<Reach<2>>>(d).unwrap() = DriveMode {
         manual: true,
         channels: [0; 2],
