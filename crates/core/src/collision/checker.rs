@@ -86,7 +86,7 @@ impl<R: Robot> Checker<R> {
     }
 
     /// Who answers the questions about a configuration.
-    fn asked(&self) -> &dyn Collision {
+    pub(super) fn asked(&self) -> &dyn Collision {
         self.black_box.as_deref().unwrap_or(&*self.scene)
     }
 

@@ -1,49 +1,8 @@
 //! `Footprint`, the set of workspace points a robot occupies at a configuration, R(q).
 
-use smallvec::SmallVec;
-
-use super::{Aabb, Placed, Point2, Pose2, Segment, Shape, ShapeError, SinCos};
+use super::parts::{Part, Parts};
+use super::{Aabb, Placed, Point2, Pose2, Segment, Shape, ShapeError};
 use crate::num;
-
-/// One rigid part of a footprint: a shape, the pose of its frame, and the shape placed there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Part {
-    pose: Pose2,
-    shape: Shape,
-    placed: Placed,
-}
-
-impl Part {
-    /// The part with this shape in the frame `pose`, whose heading is wrapped where it lies outside `(-pi, pi]`.
-    #[inline]
-    pub fn new(pose: Pose2, shape: Shape) -> Self {
-        let pose = Pose2 { theta: num::in_range(pose.theta), ..pose };
-        let placed = shape.place(&pose);
-        Part { pose, shape, placed }
-    }
-
-    /// As [`new`](Self::new), given the sine and the cosine of the frame's angle.
-    #[inline]
-    pub(crate) fn new_by(pose: Pose2, sin_cos: SinCos, shape: Shape) -> Self {
-        let placed = shape.place_by(&pose, sin_cos);
-        Part { pose, shape, placed }
-    }
-
-    /// The pose of the part's frame. A link's frame sits at its proximal end.
-    pub fn pose(&self) -> &Pose2 {
-        &self.pose
-    }
-
-    /// The shape in the part's frame.
-    pub fn shape(&self) -> &Shape {
-        &self.shape
-    }
-
-    /// The shape in the world.
-    pub fn placed(&self) -> &Placed {
-        &self.placed
-    }
-}
 
 /// A footprint R(q): a list of rigid parts. Up to three parts are stored without a heap allocation, which covers the
 /// lab's three robots.
@@ -57,7 +16,7 @@ impl Part {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Footprint {
-    parts: SmallVec<[Part; 3]>,
+    parts: Parts,
 }
 
 impl Footprint {
@@ -67,15 +26,22 @@ impl Footprint {
         Footprint { parts: parts.into_iter().collect() }
     }
 
+    /// The footprint of this many parts, made in place from their numbers.
+    #[inline]
+    pub(crate) fn by_number(count: usize, part: impl Fn(usize) -> Part) -> Self {
+        Footprint { parts: Parts::by_number(count, part) }
+    }
+
     /// The footprint of one part: this hull, which is in world coordinates.
     pub(crate) fn of_hull(hull: Placed) -> Self {
         let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
-        Self::new([Part { pose: Pose2::IDENTITY, shape, placed: hull }])
+        Footprint { parts: Parts::One([Part::of_placed(shape, hull)]) }
     }
 
     /// One disc, such as Rusty.
+    #[inline]
     pub fn disc(centre: Point2, radius: f64) -> Self {
-        Self::new([Part::new(Pose2 { x: centre.x, y: centre.y, theta: 0.0 }, Shape::Disc { radius })])
+        Footprint { parts: Parts::One([Part::disc(centre, radius)]) }
     }
 
     /// One capsule per segment, each with its frame at the segment's first end and its x axis along the segment. The
@@ -96,7 +62,7 @@ impl Footprint {
 
     /// The smallest box around all parts, metres; `None` without parts.
     pub fn bounds(&self) -> Option<Aabb> {
-        self.parts.iter().map(|part| part.placed().bounds()).reduce(|a, b| a.merged(&b))
+        self.parts().iter().map(|part| part.placed().bounds()).reduce(|a, b| a.merged(&b))
     }
 
     /// As [`disc`](Self::disc), checked.
@@ -137,12 +103,12 @@ impl Footprint {
     /// The parts, lowest number first.
     #[inline]
     pub fn parts(&self) -> &[Part] {
-        &self.parts
+        self.parts.as_slice()
     }
 
     /// Whether every part is finite and well formed; only then do the queries use its geometry.
     pub fn is_valid(&self) -> bool {
-        self.parts.iter().all(|p| p.pose.is_finite() && p.placed.is_valid())
+        self.parts().iter().all(|p| p.pose().is_finite() && p.placed().is_valid())
     }
 }
 

@@ -172,14 +172,20 @@ impl Shape {
     /// counter-clockwise.
     #[inline]
     pub fn core(&self) -> Vertices {
+        self.core_by(|p| p)
+    }
+
+    /// The core's vertices, each of them mapped.
+    #[inline]
+    fn core_by(&self, map: impl Fn(Point2) -> Point2) -> Vertices {
         match self {
-            Shape::Disc { .. } => Vertices::from([Point2::origin()]),
-            Shape::Segment { a, b } | Shape::Capsule { a, b, .. } => Vertices::from([*a, *b]),
+            Shape::Disc { .. } => Vertices::from([map(Point2::origin())]),
+            Shape::Segment { a, b } | Shape::Capsule { a, b, .. } => Vertices::from([map(*a), map(*b)]),
             Shape::Rectangle { min, max } => {
-                Vertices::from([*min, Point2::new(max.x, min.y), *max, Point2::new(min.x, max.y)])
+                Vertices::from([map(*min), map(Point2::new(max.x, min.y)), map(*max), map(Point2::new(min.x, max.y))])
             }
-            Shape::Polygon(p) => Vertices::from_slice(p.vertices()),
-            Shape::Hull { vertices, .. } => Vertices::from_slice(vertices),
+            Shape::Polygon(p) => p.vertices().iter().copied().map(map).collect(),
+            Shape::Hull { vertices, .. } => vertices.iter().copied().map(map).collect(),
         }
     }
 
@@ -199,12 +205,8 @@ impl Shape {
     /// As [`place`](Self::place), given the sine and the cosine of the frame's angle.
     #[inline]
     pub(crate) fn place_by(&self, pose: &Pose2, sin_cos: SinCos) -> Placed {
-        let mut core = self.core();
-        if *pose != Pose2::IDENTITY {
-            for p in &mut core {
-                *p = pose.transform_by(sin_cos, *p);
-            }
-        }
+        let is_identity = *pose == Pose2::IDENTITY;
+        let core = self.core_by(|p| if is_identity { p } else { pose.transform_by(sin_cos, p) });
         Placed::new(core, self.radius())
     }
 }

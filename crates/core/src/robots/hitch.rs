@@ -4,10 +4,9 @@ use super::jackknife::leaves_along_line;
 use super::robot::{sample_angle, turning};
 use super::{ConfigurationError, Drivable, Leaving, Motion, PartRates, PointJacobian, Rates, Robot};
 use crate::configuration::{CarSizes, Configuration, HitchCfg};
-use crate::geometry::{Aabb, Footprint, Point2, Pose2, Vector2};
+use crate::geometry::{Aabb, Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num;
 use crate::random::Stream;
-use crate::short_list::ShortList;
 
 /// A car whose reference point is the middle of its rear axle; the hitch is there too.
 ///
@@ -192,17 +191,22 @@ impl Robot for Hitch {
     ///
     /// A configuration in the wrong space gives a footprint that is not finite and fails safe.
     fn footprint(&self, q: &HitchCfg) -> Footprint {
-        let Aabb { min, max } = self.body.rectangle();
-        let mut rects: ShortList<_, 2> = ShortList::from([(q.body, min, max)]);
-        match (q.trailer, self.hitch_len) {
+        let mut body = q.body;
+        let trailer = match (q.trailer, self.hitch_len) {
             (Some(psi), Some(hitch_len)) => {
-                let Aabb { min, max } = self.trailer_body.rectangle(hitch_len);
-                rects.push((Pose2 { theta: psi, ..q.body }, min, max));
+                Some((Pose2 { theta: psi, ..q.body }, self.trailer_body.rectangle(hitch_len)))
             }
-            (None, None) => {}
-            _ => rects[0].0.x = f64::NAN,
-        }
-        Footprint::rects(rects)
+            (None, None) => None,
+            _ => {
+                body.x = f64::NAN;
+                None
+            }
+        };
+        let body = (body, self.body.rectangle());
+        Footprint::by_number(1 + usize::from(trailer.is_some()), |k| {
+            let (pose, Aabb { min, max }) = if k == 0 { body } else { trailer.unwrap_or(body) };
+            Part::new(pose, Shape::Rectangle { min, max })
+        })
     }
 
     fn sample(&self, min: Point2, max: Point2, stream: &mut Stream) -> HitchCfg {

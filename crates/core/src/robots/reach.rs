@@ -152,7 +152,9 @@ impl<const N: usize> Reach<N> {
     /// Link k leaves joint k at the absolute heading `th1 + .. + thk`; one running heading and one running position
     /// give the product of the N rigid motions "turn by the joint angle, then go the link's length ahead".
     pub fn fk(&self, q: &Tn<N>) -> JointPoints {
-        self.links(q).map(|link| link.pose.position()).chain([self.tip(q)]).collect()
+        let links = self.links(q);
+        let tip = links.last().map_or(self.base, PlacedLink::end);
+        links.iter().map(|link| link.pose.position()).chain([tip]).collect()
     }
 
     /// The position of the tip, metres.
@@ -180,13 +182,13 @@ impl<const N: usize> Reach<N> {
     }
 
     /// The links at a configuration, from the base on.
-    fn links(&self, q: &Tn<N>) -> impl Iterator<Item = PlacedLink> {
-        let (base, mut last) = (self.base, None::<PlacedLink>);
-        q.0.into_iter().zip(self.lengths).map(move |(angle, length)| {
-            let (at, heading) = last.map_or((base, 0.0), |link| (link.end(), link.pose.theta));
-            let theta = wrap(heading + in_range(angle));
-            let link = PlacedLink { pose: Pose2 { x: at.x, y: at.y, theta }, sin_cos: SinCos::of(theta), length };
-            last = Some(link);
+    fn links(&self, q: &Tn<N>) -> [PlacedLink; N] {
+        let (mut at, mut heading) = (self.base, 0.0);
+        std::array::from_fn(|k| {
+            heading = wrap(heading + in_range(q.0[k]));
+            let pose = Pose2 { x: at.x, y: at.y, theta: heading };
+            let link = PlacedLink { pose, sin_cos: SinCos::of(heading), length: self.lengths[k] };
+            at = link.end();
             link
         })
     }
@@ -201,10 +203,12 @@ impl<const N: usize> Robot for Reach<N> {
 
     /// One capsule per link, part 0 the one at the base.
     fn footprint(&self, q: &Tn<N>) -> Footprint {
-        Footprint::new(self.links(q).map(|PlacedLink { pose, sin_cos, length }| {
+        let links = self.links(q);
+        Footprint::by_number(N, |k| {
+            let PlacedLink { pose, sin_cos, length } = links[k];
             let shape = Shape::Capsule { a: Point2::origin(), b: Point2::new(length, 0.0), radius: self.link_radius };
             Part::new_by(pose, sin_cos, shape)
-        }))
+        })
     }
 
     /// The joints up to a link's own turn its points; those beyond do not move them.

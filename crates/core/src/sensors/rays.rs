@@ -134,7 +134,11 @@ impl Fan {
     #[inline(always)]
     pub(super) fn ranges(&self, greatest: f64, ranges: &mut [f64]) {
         let least = (1.0 - 4.0 * f64::EPSILON) / greatest;
-        let range = |inverse: f64| if inverse >= least { lesser(1.0 / inverse, greatest) } else { f64::INFINITY };
+        // divided always, then chosen: a division under a condition is done ray by ray
+        let range = |inverse: f64| {
+            let hit = lesser(1.0 / inverse, greatest);
+            if inverse >= least { hit } else { f64::INFINITY }
+        };
         let (eights, rest) = ranges.as_chunks_mut::<LANES>();
         for (ranges, block) in eights.iter_mut().zip(&self.blocks) {
             if block.dx[0] > 2.0 {

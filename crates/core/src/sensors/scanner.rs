@@ -8,7 +8,7 @@ use super::kernel::{Kernel, raise};
 use super::rays::{Fan, Lanes};
 use super::simd::Instructions;
 use super::view::View;
-use crate::collision::{Circle, LANES, Scene, SegmentSoup, touch};
+use crate::collision::{Circle, LANES, RowsError, Scene, SegmentSoup, touch};
 use crate::geometry::{Aabb, Placed, Point2, Pose2, SinCos};
 use crate::num;
 use crate::worlds::{FanSensor, RangeSensor};
@@ -198,10 +198,28 @@ impl RangeSensor {
     /// The ranges from many poses, one scan after the other, in parallel where threads exist. They do not depend on the
     /// number of threads.
     pub fn scans(&self, scene: &Scene, poses: &[Pose2]) -> Vec<f64> {
+        let mut ranges = vec![0.0; self.n_rays as usize * poses.len()];
+        self.scan_each(scene, poses, &mut ranges);
+        ranges
+    }
+
+    /// As [`scans`](Self::scans), written into the caller's memory.
+    ///
+    /// # Errors
+    /// [`RowsError::Places`] unless there are as many places as rays of all poses; nothing is written then.
+    pub fn scans_into(&self, scene: &Scene, poses: &[Pose2], ranges: &mut [f64]) -> Result<(), RowsError> {
+        let (answers, places) = (self.n_rays as usize * poses.len(), ranges.len());
+        if answers != places {
+            return Err(RowsError::Places { answers, places });
+        }
+        self.scan_each(scene, poses, ranges);
+        Ok(())
+    }
+
+    fn scan_each(&self, scene: &Scene, poses: &[Pose2], ranges: &mut [f64]) {
         let n = self.n_rays as usize;
-        let mut ranges = vec![0.0; n * poses.len()];
         if n == 0 {
-            return ranges;
+            return;
         }
         let scan = |scanner: &mut Scanner, (pose, ranges): (&Pose2, &mut [f64])| {
             scanner.scan_into(scene, &[], pose, ranges);
@@ -217,6 +235,5 @@ impl RangeSensor {
             let mut scanner = Scanner::new(*self);
             poses.iter().zip(ranges.chunks_mut(n)).for_each(|one| scan(&mut scanner, one));
         }
-        ranges
     }
 }

@@ -2,9 +2,10 @@
 
 use std::f64::consts::PI;
 
-use motion_lab_core::collision::{ChainChecker, Checker, Collision, Problem, ProblemError, Scene};
+use motion_lab_core::collision::{ChainChecker, Checker, Collision, Problem, ProblemError, Rows, RowsError, Scene};
 use motion_lab_core::geometry::Aabb;
 use motion_lab_core::prelude::*;
+use motion_lab_core::robots::{ConfigurationError, HITCH};
 
 fn block() -> Scene {
     let bounds = Aabb { min: Point2::new(-2.4, -2.4), max: Point2::new(2.4, 2.4) };
@@ -39,6 +40,62 @@ fn a_batch_gives_the_answers_one_by_one_at_any_number_of_threads() {
             );
         });
     }
+}
+
+#[test]
+fn rows_of_numbers_get_the_answers_of_their_configurations_in_the_callers_memory() {
+    let checker = arm();
+    let mut s = Stream::new(Seed(12), "rows");
+    let numbers: Vec<f64> = (0..400).map(|_| s.uniform(-PI, PI)).collect();
+    let qs: Vec<T2> = numbers.chunks(2).map(|q| T2::new(q[0], q[1])).collect();
+    let rows = Rows::new(checker.robot(), &numbers, 2).unwrap();
+    let (from, to) = (Rows::new(checker.robot(), &numbers[..200], 2), Rows::new(checker.robot(), &numbers[200..], 2));
+    let (from, to) = (from.unwrap(), to.unwrap());
+    assert!(rows.len() == 200 && to.len() == 100 && !rows.is_empty());
+
+    let (mut free, mut hits, mut distances) = ([false; 200], [false; 200], [0.0; 200]);
+    let (mut witnesses, mut clear) = (vec![None; 200], [false; 100]);
+    let mut verdicts = vec![Err(ConfigurationError::OtherRobot); 100];
+    checker.are_free_into(&rows, &mut free).unwrap();
+    checker.intersects_into(&rows, &mut hits).unwrap();
+    checker.distances_into(&rows, &mut distances).unwrap();
+    checker.witnesses_into(&rows, &mut witnesses).unwrap();
+    checker.edges_free_into(&from, &to, &mut clear).unwrap();
+    checker.edges_into(&from, &to, &mut verdicts).unwrap();
+    for (i, q) in qs.iter().enumerate() {
+        let footprint = checker.robot().footprint(q);
+        assert_eq!((free[i], hits[i]), (checker.is_free(q), block().intersects(&footprint)), "{q}");
+        assert_eq!((distances[i], witnesses[i]), (checker.distance(q), block().witness(&footprint)), "{q}");
+    }
+    assert!(hits.contains(&true) && hits.contains(&false));
+    for i in 0..100 {
+        let (a, b) = (&qs[i], &qs[100 + i]);
+        assert_eq!((clear[i], &verdicts[i]), (checker.edge_free(a, b), &checker.edge(a, b)), "{a} {b}");
+    }
+
+    // nothing is written where places are wrong
+    let mut few = [7.0; 199];
+    assert_eq!(checker.distances_into(&rows, &mut few), Err(RowsError::Places { answers: 200, places: 199 }));
+    assert_eq!(few, [7.0; 199]);
+    let pairs = checker.edges_free_into(&rows, &to, &mut clear);
+    assert_eq!(pairs, Err(RowsError::Pairs { from: 200, to: 100 }));
+}
+
+#[test]
+fn rows_that_are_no_configurations_are_named_by_their_number() {
+    let car = HITCH.with_trailer();
+    let row = |numbers: &[f64], width| Rows::new(&car, numbers, width).map(|rows| rows.len());
+    assert_eq!(row(&[0.0; 8], 4), Ok(2));
+    assert_eq!(row(&[], 4), Ok(0));
+    assert_eq!(row(&[0.0; 9], 4), Err(RowsError::Ragged { numbers: 9, width: 4 }));
+    assert_eq!(row(&[0.0; 9], 0), Err(RowsError::Ragged { numbers: 9, width: 0 }));
+    assert_eq!(row(&[0.0; 10], 5), Err(RowsError::Width { width: 5 }));
+    let reason = ConfigurationError::HitchWithoutTrailer;
+    assert_eq!(row(&[0.0; 9], 3), Err(RowsError::Row { row: 0, reason }));
+    let mut numbers = [0.0; 12];
+    numbers[10] = f64::INFINITY;
+    let reason = ConfigurationError::NotFinite;
+    assert_eq!(row(&numbers, 4), Err(RowsError::Row { row: 2, reason }), "the third row, from 0");
 }
 
 #[test]

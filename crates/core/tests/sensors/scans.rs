@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use motion_lab_core::collision::Scene;
+use motion_lab_core::collision::{RowsError, Scene};
 use motion_lab_core::num::{cos, sin};
 use motion_lab_core::prelude::*;
 use motion_lab_core::sensors::{Instructions, RangeSensor, Scanner};
@@ -67,6 +67,11 @@ fn many_scans_at_once_are_the_single_ones_in_order() {
     for (pose, ranges) in poses.iter().zip(all.chunks(37)) {
         assert_eq!(ranges, sensor.scan_from(&scene, &[], pose));
     }
+    let mut places = vec![7.0; 37 * 100];
+    sensor.scans_into(&scene, &poses, &mut places).unwrap();
+    assert_eq!(places, all);
+    let few = sensor.scans_into(&scene, &poses[1..], &mut places);
+    assert_eq!(few, Err(RowsError::Places { answers: 37 * 99, places: 37 * 100 }));
 }
 
 #[test]

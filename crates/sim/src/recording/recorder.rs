@@ -5,10 +5,11 @@ use std::sync::Arc;
 use bevy::app::App;
 use bevy::ecs::world::World;
 
-use crate::run::{Frame, Recipe, RunInput, Script};
+use crate::run::{Frame, Log, Recipe, RobotInput, RunInput, Script, WorldChange};
 use crate::simulation::{
-    Keyframes, LatestFrame, PendingInput, Refusals, RestoreError, RobotView, Roster, RunConfig, SensorView,
-    SimulationPlugin, SpawnError, StandingWorld, Transport, restore, seek, sensors, start_recipe, step_alone, view,
+    CommandError, Keyframes, Later, LatestFrame, PendingInput, Refusals, RestoreError, RobotCommand, RobotView, Roster,
+    RunConfig, SensorView, SimulationPlugin, SpawnError, StandingWorld, Transport, WorldCommand, change, input,
+    restore, seek, sensors, start_recipe, step_alone, view,
 };
 use crate::tour::TourConfig;
 use motion_lab_core::worlds::World as WorldModel;
@@ -109,6 +110,55 @@ impl Recorder {
     pub fn step(&mut self) -> &Frame {
         step_alone(&mut self.world);
         self.frame()
+    }
+
+    /// Gives a robot an input. It applies before the next tick, after what the script has for it, and the script holds
+    /// it from now on. Where the run was moved back, it goes on from here: what came after this tick is forgotten.
+    ///
+    /// What only the tick can refuse, such as a teleport onto an obstacle, is counted there
+    /// ([`refusals`](Self::refusals)).
+    ///
+    /// ```
+    /// use motion_lab_sim::recording::{Recorder, verify};
+    /// use motion_lab_sim::run::RobotInput;
+    /// use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
+    ///
+    /// let mut live = Recorder::new(TourConfig::default(), BOOK_SEED)?;
+    /// live.input("Rusty", RobotInput::Drive(128, 0)).unwrap();
+    /// (0..20).for_each(|_| _ = live.step());
+    /// let log = live.log()?;
+    /// assert!(log.recipe.script.events[0].tick == 1 && log.ticks() == 20);
+    /// assert_eq!(verify(&log, |_| {})?.identical, 20);
+    /// # Ok::<(), motion_lab_sim::recording::RunError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`CommandError::Script`] for an input that no script could hold: an unknown robot, a channel out of range. It is
+    /// counted and changes nothing.
+    pub fn input(&mut self, robot: &str, given: RobotInput) -> Result<(), CommandError> {
+        input(&mut self.world, RobotCommand { robot: robot.to_owned(), input: given }, Later::Kept)
+    }
+
+    /// Changes a world before the next tick, as [`input`](Self::input).
+    ///
+    /// # Errors
+    /// [`CommandError`] for a change that no script could hold, or that would be refused now: a robot is in the way.
+    pub fn change(&mut self, world: &str, made: WorldChange) -> Result<(), CommandError> {
+        change(&mut self.world, WorldCommand { world: world.to_owned(), change: made }, Later::Kept)
+    }
+
+    /// The run so far, up to the present tick, as a log: one that says all that the run was told, and verifies. The run
+    /// is simulated anew for it and stands where it stood.
+    ///
+    /// # Errors
+    /// [`RunError::Restore`], which cannot happen with the run's own keyframes.
+    pub fn log(&mut self) -> Result<Log, RunError> {
+        let ticks = self.frame().tick;
+        let initial = self.seek(0)?.clone();
+        let frames = (0..ticks).map(|_| self.step().clone()).collect();
+        let config = Arc::new(TourConfig { ticks, ..self.config().clone() });
+        let recipe = Recipe { seed: self.transport().seed, config, script: self.script().clone() };
+        Ok(Log::with_frames(recipe, initial, frames))
     }
 
     /// Moves to a tick, back or ahead, and returns its frame.

@@ -157,7 +157,7 @@ fn counts(spaces: &[Space]) -> String {
 
 impl ScriptProblem {
     /// The problem of a script that was not read from text, outside its lists.
-    pub(super) fn anywhere(self) -> ScriptError {
+    pub(crate) fn anywhere(self) -> ScriptError {
         ScriptError { file: String::new(), line: 0, list: "", event: None, problem: self }
     }
 

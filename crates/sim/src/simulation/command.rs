@@ -14,7 +14,7 @@ use super::{
     CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, Refusals, RefusedEvent, RobotCommand,
     Roster, SpawnError, Transport, TransportCommand, recipe, seek, start_recipe, step, undo,
 };
-use crate::run::{Event, Recipe, Script, WorldChange, WorldEvent};
+use crate::run::{Event, MAX_EVENTS, Recipe, Script, ScriptError, ScriptProblem, WorldChange, WorldEvent};
 use motion_lab_core::random::Seed;
 
 /// A command to the run, as a message. Commands are carried out in the order in which they were written, before the
@@ -56,14 +56,23 @@ impl From<RobotCommand> for RunCommand {
     }
 }
 
+/// What becomes of what the script has for later ticks.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Later {
+    /// It is forgotten: a hand takes over.
+    Forgotten,
+    /// It stays: a program says one thing more.
+    Kept,
+}
+
 /// Carries out the commands written since the last update, in their order.
 pub(super) fn carry_out(world: &mut World) {
     settle(world);
     let commands: Vec<RunCommand> = world.resource_mut::<Messages<RunCommand>>().drain().collect();
     for command in commands {
         let done = match command {
-            RunCommand::Robot(command) => capture(world, command),
-            RunCommand::World(command) => change(world, command),
+            RunCommand::Robot(command) => input(world, command, Later::Forgotten),
+            RunCommand::World(command) => change(world, command, Later::Forgotten),
             RunCommand::Transport(command) => obey(world, command),
         };
         if let Err(error) = done {
@@ -81,16 +90,18 @@ pub(super) fn report_changes(mut refused: ResMut<RefusedChanges>, mut messages: 
 
 /// Stamps a change of a world with the next tick. One that would be refused now is refused, and stays out of the
 /// script.
-fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand) -> Result<(), CommandError> {
+pub(crate) fn change(world: &mut World, command: WorldCommand, later: Later) -> Result<(), CommandError> {
+    let WorldCommand { world: name, change } = command;
     let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     let Some(now) = recipe(world) else { return Ok(()) };
     let event = WorldEvent { tick: tick + 1, world: name, change };
     let continues = tick < frontier || looping;
     let mut changes = world.resource::<PendingInput>().script().changes.clone();
     // those of the next tick are forgotten where the run continues from here
-    changes.retain(|c| if continues { c.tick <= tick } else { c.tick <= event.tick });
-    changes.push(event.clone());
+    changes.retain(|c| if continues { c.tick <= tick } else { later == Later::Kept || c.tick <= event.tick });
+    changes.insert(changes.partition_point(|c| c.tick <= event.tick), event.clone());
     let script = Script::new(Vec::new(), changes);
+    check_count(world)?;
     script.check().and_then(|()| script.check_worlds(&now.config.worlds))?;
     if let Some(refused) = refusal(world, &event) {
         return Err(CommandError::Change(refused));
@@ -98,7 +109,11 @@ fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand)
     if continues {
         continue_from_here(world);
     }
-    world.resource_mut::<PendingInput>().capture_change(event);
+    let mut pending = world.resource_mut::<PendingInput>();
+    match later {
+        Later::Forgotten => pending.capture_change(event),
+        Later::Kept => pending.add_change(event),
+    }
     sync_added(world, &script.changes);
     Ok(())
 }
@@ -106,7 +121,8 @@ fn change(world: &mut World, WorldCommand { world: name, change }: WorldCommand)
 /// Stamps an input with the next tick. Input at a tick before the frontier, and any input to a looping run, continues
 /// the run from there. An input that no script could hold (an unknown robot, a channel out of range) is refused and
 /// counted, and forgets nothing.
-fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) -> Result<(), CommandError> {
+pub(crate) fn input(world: &mut World, command: RobotCommand, later: Later) -> Result<(), CommandError> {
+    let RobotCommand { robot, input } = command;
     let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     let known = world.get_resource::<Roster>().is_some_and(|roster| roster.named(&robot).is_some());
     let event = Event { tick: tick + 1, robot, input };
@@ -116,11 +132,23 @@ fn capture(world: &mut World, RobotCommand { robot, input }: RobotCommand) -> Re
         world.resource_mut::<Refusals>().note(|| RefusedEvent::Command(Box::new(error.clone())));
         return Err(error.into());
     }
+    check_count(world)?;
     if tick < frontier || looping {
         continue_from_here(world);
     }
-    world.resource_mut::<PendingInput>().capture(event);
+    let mut pending = world.resource_mut::<PendingInput>();
+    match later {
+        Later::Forgotten => pending.capture(event),
+        Later::Kept => pending.add(event),
+    }
     Ok(())
+}
+
+/// Refuses one input more than a script may have.
+fn check_count(world: &World) -> Result<(), ScriptError> {
+    let Script { events, changes, .. } = world.resource::<PendingInput>().script();
+    let count = events.len() + changes.len() + 1;
+    if count > MAX_EVENTS { Err(ScriptProblem::TooMany(count).anywhere()) } else { Ok(()) }
 }
 
 /// Forgets all input after the present tick.

@@ -1,5 +1,6 @@
 //! Many robots: the same run on any number of threads, and replicas that give the bits of the schedule.
 
+use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::geometry::Aabb;
 use motion_lab_core::prelude::*;
@@ -99,6 +100,39 @@ fn replicas_give_the_bits_of_recorded_runs() {
         anew.step();
         replicas.step();
     }
+}
+
+#[test]
+fn a_replica_begun_by_inputs_is_the_run_whose_script_begins_with_them() {
+    let sensor = Some(RangeSensor { n_rays: 24, max_range: 4.0 });
+    let world = World::apartment();
+    let noise = BeamModel { sigma_hit: 0.02, z_short: 0.1, lambda_short: 1.0, z_miss: 0.05, z_max: 0.05, z_rand: 0.05 };
+    let rover = Resident { sensor: Some(noise), ..world.robots[0].clone() };
+    let mut replicas = Replicas::new(&RUSTY, &world, &rover, sensor, [Seed(1), Seed(2)]).unwrap();
+    (0..7).for_each(|_| replicas.step());
+    let begin = [RobotInput::Teleport(quantized(&[3.0, 5.5, 0.5])), RobotInput::Drive(128, 30)];
+    assert_eq!(replicas.begin(1, Seed(9), &begin), Ok(true));
+    assert_eq!((replicas.tick(0), replicas.tick(1)), (7, 0));
+    let there = Pose2::new(3.0, 5.5, 0.5);
+    assert_eq!(*replicas.configuration(1), there);
+    let event = |input: &RobotInput| Event { tick: 1, robot: rover.name.clone(), input: input.clone() };
+    let script = Script { events: begin.iter().map(event).collect(), ..Script::empty() };
+    let config = TourConfig { worlds: vec![alone(&world, &rover)], ticks: 60, sensor };
+    let mut recorder = Recorder::new(config, (Seed(9), script)).unwrap();
+    for _ in 0..60 {
+        replicas.step();
+        assert_eq!(&replicas.frame(1), recorder.step());
+    }
+    // without noise, what is read at the beginning is the scan from there
+    let mut exact = Replicas::new(&RUSTY, &world, &world.robots[0], sensor, [Seed(1)]).unwrap();
+    let first = exact.ranges(0).to_vec();
+    assert_eq!(exact.begin(0, Seed(9), &begin[..1]), Ok(true));
+    let right = sensor.unwrap().scan_from(&Scene::apartment(), &[], &there);
+    assert!(exact.ranges(0) == right && exact.ranges(0) != first);
+    // one that is refused is said, and those after it apply
+    let into_the_wall = [RobotInput::Teleport(quantized(&[0.0; 3])), begin[0].clone()];
+    assert_eq!(exact.begin(0, Seed(9), &into_the_wall), Ok(false));
+    assert_eq!(*exact.configuration(0), there);
 }
 
 #[test]

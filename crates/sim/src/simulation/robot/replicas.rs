@@ -121,11 +121,7 @@ impl<R: SimulatedRobot> Replicas<R> {
     /// # Panics
     /// Without such a replica.
     pub fn input(&mut self, replica: usize, input: &RobotInput) -> bool {
-        let (stage, replica) = (&self.stage, &mut self.replicas[replica]);
-        let surroundings = || Surroundings { scene: &stage.scene, others: &[] };
-        let (robot, refused) = replica.robot.clone().after(&stage.robot, &replica.tour, input, surroundings);
-        replica.robot = robot;
-        refused.is_none()
+        self.stage.apply(&mut self.replicas[replica], input)
     }
 
     /// Begins a replica anew at tick 0 with this seed; the others stay as they are.
@@ -136,11 +132,41 @@ impl<R: SimulatedRobot> Replicas<R> {
     /// # Panics
     /// Without such a replica.
     pub fn reset(&mut self, replica: usize, seed: Seed) -> Result<(), SpawnError> {
+        self.begin(replica, seed, &[]).map(|_| ())
+    }
+
+    /// Begins a replica anew with this seed and applies these inputs before its tick 1, such as a teleport to a start of
+    /// its own. Then it is at tick 0 where they put it, and its sensor has read there; a recorded run whose script has
+    /// these inputs first, at tick 1, has its frames from tick 1 on. Returns whether all of them were accepted.
+    ///
+    /// ```
+    /// use motion_lab_core::prelude::*;
+    /// use motion_lab_core::robots::RUSTY;
+    /// use motion_lab_core::worlds::World;
+    /// use motion_lab_sim::run::{Quantized, RobotInput};
+    /// use motion_lab_sim::simulation::Replicas;
+    ///
+    /// let world = World::apartment();
+    /// let mut replicas = Replicas::new(&RUSTY, &world, &world.robots[0], None, [Seed(1)])?;
+    /// let start = [3.0, 5.5, 0.5].map(|x| Quantized::try_new(x).unwrap());
+    /// assert!(replicas.begin(0, Seed(2), &[RobotInput::Teleport(start.to_vec())])?);
+    /// assert_eq!(*replicas.configuration(0), Pose2::new(3.0, 5.5, 0.5));
+    /// # Ok::<(), motion_lab_sim::simulation::SpawnError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As of [`reset`](Self::reset).
+    ///
+    /// # Panics
+    /// Without such a replica.
+    pub fn begin(&mut self, replica: usize, seed: Seed, inputs: &[RobotInput]) -> Result<bool, SpawnError> {
         let n = self.stage.n_rays();
+        let mut anew = self.stage.replica(seed)?;
+        let refused = inputs.iter().filter(|input| !self.stage.apply(&mut anew, input)).count();
         let ranges = &mut self.ranges[replica * n..(replica + 1) * n];
-        self.replicas[replica] = self.stage.replica(seed)?;
+        self.replicas[replica] = anew;
         self.stage.sense(&mut self.replicas[replica], ranges, &mut self.scanners.desk().desk);
-        Ok(())
+        Ok(refused == 0)
     }
 
     /// The tick at which a replica stands.
@@ -211,6 +237,14 @@ impl<R: SimulatedRobot> SharedStage<R> {
             robot: InputTarget { q: *start, mode: DriveMode::default(), extra: robot.initial_extra() },
             contacts: Contacts::default(),
         })
+    }
+
+    /// Applies an input; returns whether it was accepted.
+    fn apply(&self, replica: &mut Replica<R>, input: &RobotInput) -> bool {
+        let surroundings = || Surroundings { scene: &self.scene, others: &[] };
+        let (robot, refused) = replica.robot.clone().after(&self.robot, &replica.tour, input, surroundings);
+        replica.robot = robot;
+        refused.is_none()
     }
 
     /// A tick up to its scan: the phases of the schedule, for a robot without others.

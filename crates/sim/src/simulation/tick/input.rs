@@ -80,6 +80,18 @@ impl PendingInput {
         self.script.version = Script::version_of(&self.script.changes);
     }
 
+    /// Adds a change after those of its tick. What comes later stays.
+    pub(crate) fn add_change(&mut self, change: WorldEvent) {
+        let at = self.script.changes.partition_point(|c| c.tick <= change.tick);
+        self.script.changes.insert(at, change);
+        self.script.version = Script::version_of(&self.script.changes);
+    }
+
+    /// Adds an event after those of its tick. What comes later stays.
+    pub(crate) fn add(&mut self, event: Event) {
+        self.insert(event.tick, &event.robot, event.input);
+    }
+
     /// Forgets what comes after `tick`, at the first input captured for it.
     fn begin_capture(&mut self, tick: u64) {
         if self.captured != Some(tick) {
