@@ -6,5 +6,6 @@ mod pins;
 mod runs;
 mod sensors;
 mod simulator;
+mod tasks;
 mod tick_oracle;
 mod truth;

@@ -1,6 +1,6 @@
 //! `Footprint`, the set of workspace points a robot occupies at a configuration, R(q).
 
-use super::parts::{Part, Parts};
+use super::parts::{Part, PartList};
 use super::{Aabb, Placed, Point2, Pose2, Segment, Shape, ShapeError};
 use crate::num;
 
@@ -16,7 +16,7 @@ use crate::num;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Footprint {
-    parts: Parts,
+    parts: PartList,
 }
 
 impl Footprint {
@@ -29,19 +29,19 @@ impl Footprint {
     /// The footprint of this many parts, made in place from their numbers.
     #[inline]
     pub(crate) fn by_number(count: usize, part: impl Fn(usize) -> Part) -> Self {
-        Footprint { parts: Parts::by_number(count, part) }
+        Footprint { parts: PartList::by_number(count, part) }
     }
 
     /// The footprint of one part: this hull, which is in world coordinates.
     pub(crate) fn of_hull(hull: Placed) -> Self {
         let shape = Shape::Hull { vertices: hull.core().into(), radius: hull.radius() };
-        Footprint { parts: Parts::One([Part::of_placed(shape, hull)]) }
+        Footprint { parts: PartList::One([Part::of_placed(shape, hull)]) }
     }
 
     /// One disc, such as Rusty.
     #[inline]
     pub fn disc(centre: Point2, radius: f64) -> Self {
-        Footprint { parts: Parts::One([Part::disc(centre, radius)]) }
+        Footprint { parts: PartList::One([Part::disc(centre, radius)]) }
     }
 
     /// One capsule per segment, each with its frame at the segment's first end and its x axis along the segment. The

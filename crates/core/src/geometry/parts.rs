@@ -57,10 +57,11 @@ impl Part {
     }
 }
 
-/// The parts of a footprint. Up to three lie in the footprint itself, which covers the lab's robots; each number of them
-/// is a variant, so that what makes a footprint writes its parts in place.
+/// The parts of a footprint. Up to three lie in the footprint itself, which covers the lab's robots; each number of
+/// them is a variant, so that what makes a footprint writes its parts in place.
 #[derive(Clone, Debug)]
-pub(super) enum Parts {
+#[expect(clippy::large_enum_variant, reason = "footprints live on the stack, and nothing holds many of them")]
+pub(super) enum PartList {
     One([Part; 1]),
     Two([Part; 2]),
     Three([Part; 3]),
@@ -68,48 +69,48 @@ pub(super) enum Parts {
     Others(Vec<Part>),
 }
 
-impl Parts {
+impl PartList {
     #[inline]
     pub(super) fn by_number(count: usize, part: impl Fn(usize) -> Part) -> Self {
         match count {
-            1 => Parts::One([part(0)]),
-            2 => Parts::Two([part(0), part(1)]),
-            3 => Parts::Three([part(0), part(1), part(2)]),
-            _ => Parts::Others((0..count).map(part).collect()),
+            1 => PartList::One([part(0)]),
+            2 => PartList::Two([part(0), part(1)]),
+            3 => PartList::Three([part(0), part(1), part(2)]),
+            _ => PartList::Others((0..count).map(part).collect()),
         }
     }
 
     #[inline]
     pub(super) fn as_slice(&self) -> &[Part] {
         match self {
-            Parts::One(parts) => parts,
-            Parts::Two(parts) => parts,
-            Parts::Three(parts) => parts,
-            Parts::Others(parts) => parts,
+            PartList::One(parts) => parts,
+            PartList::Two(parts) => parts,
+            PartList::Three(parts) => parts,
+            PartList::Others(parts) => parts,
         }
     }
 }
 
-impl Default for Parts {
+impl Default for PartList {
     fn default() -> Self {
-        Parts::Others(Vec::new())
+        PartList::Others(Vec::new())
     }
 }
 
-impl PartialEq for Parts {
+impl PartialEq for PartList {
     fn eq(&self, other: &Self) -> bool {
         self.as_slice() == other.as_slice()
     }
 }
 
-impl FromIterator<Part> for Parts {
+impl FromIterator<Part> for PartList {
     #[inline]
     fn from_iter<I: IntoIterator<Item = Part>>(parts: I) -> Self {
         let mut parts = parts.into_iter();
-        let Some(first) = parts.next() else { return Parts::default() };
-        let Some(second) = parts.next() else { return Parts::One([first]) };
-        let Some(third) = parts.next() else { return Parts::Two([first, second]) };
-        let Some(fourth) = parts.next() else { return Parts::Three([first, second, third]) };
-        Parts::Others([first, second, third, fourth].into_iter().chain(parts).collect())
+        let Some(first) = parts.next() else { return PartList::default() };
+        let Some(second) = parts.next() else { return PartList::One([first]) };
+        let Some(third) = parts.next() else { return PartList::Two([first, second]) };
+        let Some(fourth) = parts.next() else { return PartList::Three([first, second, third]) };
+        PartList::Others([first, second, third, fourth].into_iter().chain(parts).collect())
     }
 }

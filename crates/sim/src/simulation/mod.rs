@@ -70,6 +70,7 @@ pub use state::snapshot;
 pub use tick::drive::StandingRobots;
 pub use tick::hold::{Advance, HOLD_CLEARANCE, MARGIN, MIN_CLEARANCE, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
+pub(crate) use tick::parallel::each;
 pub use tick::refusals::{Refusals, RefusedEvent, RefusedInput};
 pub use tick::settle::FLASH_TICKS;
 pub use transport::{Playback, Transport, TransportCommand};

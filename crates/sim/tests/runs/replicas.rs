@@ -104,8 +104,8 @@ fn replicas_give_the_bits_of_recorded_runs() {
 
 #[test]
 fn a_replica_begun_by_inputs_is_the_run_whose_script_begins_with_them() {
-    let sensor = Some(RangeSensor { n_rays: 24, max_range: 4.0 });
-    let world = World::apartment();
+    let rays = RangeSensor { n_rays: 24, max_range: 4.0 };
+    let (sensor, world) = (Some(rays), World::apartment());
     let noise = BeamModel { sigma_hit: 0.02, z_short: 0.1, lambda_short: 1.0, z_miss: 0.05, z_max: 0.05, z_rand: 0.05 };
     let rover = Resident { sensor: Some(noise), ..world.robots[0].clone() };
     let mut replicas = Replicas::new(&RUSTY, &world, &rover, sensor, [Seed(1), Seed(2)]).unwrap();
@@ -127,7 +127,7 @@ fn a_replica_begun_by_inputs_is_the_run_whose_script_begins_with_them() {
     let mut exact = Replicas::new(&RUSTY, &world, &world.robots[0], sensor, [Seed(1)]).unwrap();
     let first = exact.ranges(0).to_vec();
     assert_eq!(exact.begin(0, Seed(9), &begin[..1]), Ok(true));
-    let right = sensor.unwrap().scan_from(&Scene::apartment(), &[], &there);
+    let right = rays.scan_from(&Scene::apartment(), &[], &there);
     assert!(exact.ranges(0) == right && exact.ranges(0) != first);
     // one that is refused is said, and those after it apply
     let into_the_wall = [RobotInput::Teleport(quantized(&[0.0; 3])), begin[0].clone()];

@@ -135,9 +135,9 @@ impl<R: SimulatedRobot> Replicas<R> {
         self.begin(replica, seed, &[]).map(|_| ())
     }
 
-    /// Begins a replica anew with this seed and applies these inputs before its tick 1, such as a teleport to a start of
-    /// its own. Then it is at tick 0 where they put it, and its sensor has read there; a recorded run whose script has
-    /// these inputs first, at tick 1, has its frames from tick 1 on. Returns whether all of them were accepted.
+    /// Begins a replica anew with this seed and applies these inputs before its tick 1, such as a teleport to a start
+    /// of its own. Then it is at tick 0 where they put it, and its sensor has read there; a recorded run whose script
+    /// has these inputs first, at tick 1, has its frames from tick 1 on. Returns whether all of them were accepted.
     ///
     /// ```
     /// use motion_lab_core::prelude::*;

@@ -1,0 +1,5 @@
+//! Tasks for learning: what is observed and earned, by hand; episodes and the runs that they are.
+
+mod episodes;
+mod pins;
+mod values;
