@@ -12,10 +12,19 @@ use motion_lab::recording::Recorder;
 use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
 use motion_lab::tour::{BOOK_SEED, TourConfig};
 
-/// Scans with the baseline instructions, so that every machine counts the same.
-fn scans(scene: &Scene, side: f64, max_range: f64, times: usize) {
+/// Scans of a square hall, with the baseline instructions so that every machine counts the same, or with AVX2.
+fn hall(instructions: Instructions, times: usize) {
+    scans(&worlds::walls(40, 8.0, 2.0), 8.0, 4.0, instructions, times);
+}
+
+/// The same among a thousand walls.
+fn yard(instructions: Instructions, times: usize) {
+    scans(&worlds::walls(1_000, 12.6, 1.0), 12.6, 12.0, instructions, times);
+}
+
+fn scans(scene: &Scene, side: f64, max_range: f64, instructions: Instructions, times: usize) {
     let poses = worlds::free_points(scene, 0.3 * side, 0.7 * side);
-    let mut scanner = Scanner::with_instructions(RangeSensor { n_rays: 360, max_range }, Instructions::Baseline);
+    let mut scanner = Scanner::with_instructions(RangeSensor { n_rays: 360, max_range }, instructions);
     let mut ranges = [0.0; 360];
     for pose in poses.iter().cycle().take(times) {
         scanner.scan_into(scene, &[], pose, &mut ranges);
@@ -33,13 +42,26 @@ fn arms(times: usize, ask: impl Fn(&Checker<Reach<2>>, &T2, &T2)) {
     }
 }
 
+fn discs(times: usize) {
+    (0..times).for_each(|i| _ = black_box(Footprint::disc(Point2::new(i as f64, 1.0), black_box(0.11))));
+}
+
+fn arms_places(times: usize) {
+    let arm = Reach::<2>::workbench();
+    (0..times).for_each(|i| _ = black_box(arm.footprint(&T2::new(black_box(i as f64 * 1e-3), 1.0))));
+}
+
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let kernel = arguments.next().unwrap_or_default();
     let times = arguments.next().and_then(|n| n.parse().ok()).expect("how many times");
     match kernel.as_str() {
-        "scan-hall" => scans(&worlds::walls(40, 8.0, 2.0), 8.0, 4.0, times),
-        "scan-yard" => scans(&worlds::walls(1_000, 12.6, 1.0), 12.6, 12.0, times),
+        "scan-hall" => hall(Instructions::Baseline, times),
+        "scan-yard" => yard(Instructions::Baseline, times),
+        "scan-hall-avx2" => hall(Instructions::Avx2, times),
+        "scan-yard-avx2" => yard(Instructions::Avx2, times),
+        "disc" => discs(times),
+        "arm" => arms_places(times),
         "witness" => arms(times, |c, a, _| _ = black_box(c.scene().witness(&c.robot().footprint(a)))),
         "edge" => arms(times, |c, a, b| _ = black_box(c.edge(a, b))),
         "free" => arms(times, |c, a, b| _ = black_box(c.edge_free(a, b))),
