@@ -1,8 +1,9 @@
 //! Cuts a simple polygon into convex pieces, by exact predicates and without new vertices.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
-use crate::geometry::{ConvexPolygon, Point2, PolygonError, orientation};
+use crate::geometry::{ConvexPolygon, MIN_FEATURE, Point2, PolygonError, orientation};
+use crate::num;
 
 /// Largest number of vertices of a concave polygon. Cutting it up takes at least quadratic time.
 pub const MAX_CONCAVE_VERTICES: usize = 1000;
@@ -26,7 +27,7 @@ pub enum OutlineError {
     #[error("{0} vertices: a polygon that is not convex may have at most {MAX_CONCAVE_VERTICES}")]
     TooManyVertices(usize),
     /// Two vertices so close that no cut between them gives pieces of the smallest size.
-    #[error("a part is narrower than {} m", crate::geometry::MIN_FEATURE)]
+    #[error("a part is narrower than {MIN_FEATURE} m")]
     TooNarrow,
 }
 
@@ -149,8 +150,14 @@ fn clockwise(outline: &[Point2]) -> bool {
 
 /// Joins pieces across common edges while the result stays strictly convex. Each piece is joined with the first later
 /// piece that fits.
+///
+/// Both are strictly convex, so only the two corners where they are joined are tested, and that no edge stays that is
+/// shorter than the smallest feature.
 fn merge(outline: &[Point2], pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let edges = |ring: &[usize]| (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()])).collect::<Vec<_>>();
+    let length = |i: usize, j: usize| num::hypot(outline[j].x - outline[i].x, outline[j].y - outline[i].y);
+    let is_short = |&(i, j): &(usize, usize)| length(i, j) < MIN_FEATURE;
+    let mut short: Vec<usize> = pieces.iter().map(|ring| edges(ring).iter().filter(|e| is_short(e)).count()).collect();
     // each directed edge is in one piece, and its neighbour across it has the edge the other way round
     let mut owners: BTreeMap<(usize, usize), usize> = BTreeMap::new();
     for (piece, ring) in pieces.iter().enumerate() {
@@ -159,38 +166,55 @@ fn merge(outline: &[Point2], pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let mut pieces: Vec<Option<Vec<usize>>> = pieces.into_iter().map(Some).collect();
     for at in 0..pieces.len() {
         while let Some(ring) = &pieces[at] {
-            let beside: BTreeSet<usize> =
-                edges(ring).into_iter().filter_map(|(from, to)| owners.get(&(to, from)).copied()).collect();
-            let joined = beside.range(at + 1..).find_map(|&other| {
-                let ring = join(ring, pieces[other].as_ref()?)?;
-                ConvexPolygon::try_new(&corners(outline, &ring)).is_ok().then_some((other, ring))
+            // convex pieces share one edge at most
+            let across = |edge: (usize, usize)| Some((*owners.get(&(edge.1, edge.0))?, edge));
+            let beside: BTreeMap<usize, (usize, usize)> = edges(ring).into_iter().filter_map(across).collect();
+            let joined = beside.range(at + 1..).find_map(|(&other, edge)| {
+                let left = (short[at] + short[other]).checked_sub(2 * usize::from(is_short(edge)))?;
+                let seam = Seam::of(ring, pieces[other].as_ref()?, *edge)?;
+                (left == 0 && seam.is_convex(outline)).then(|| (other, seam.ring()))
             });
             let Some((other, ring)) = joined else { break };
             owners.extend(edges(&ring).into_iter().map(|edge| (edge, at)));
-            (pieces[at], pieces[other]) = (Some(ring), None);
+            (pieces[at], pieces[other], short[at]) = (Some(ring), None, 0);
         }
     }
     pieces.into_iter().flatten().collect()
 }
 
-/// Joins two rings along an edge that they share in opposite directions; `None` if they share none.
-fn join(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
-    for i in 0..a.len() {
-        let (from, to) = (a[i], a[(i + 1) % a.len()]);
-        if let Some(j) = (0..b.len()).find(|&j| b[j] == to && b[(j + 1) % b.len()] == from) {
-            // all of `a` from `to` around to `from`, then `b`'s vertices between `from` and `to`
-            let mut ring: Vec<usize> = (1..=a.len()).map(|k| a[(i + k) % a.len()]).collect();
-            ring.extend((2..b.len()).map(|k| b[(j + k) % b.len()]));
-            return Some(ring);
-        }
+/// Two rings beside one another, and where in them their common edge is.
+struct Seam<'a> {
+    a: &'a [usize],
+    b: &'a [usize],
+    /// Where in `a` the edge begins, and where in `b` the same edge does, which goes the other way there.
+    at: (usize, usize),
+}
+
+impl<'a> Seam<'a> {
+    fn of(a: &'a [usize], b: &'a [usize], (from, to): (usize, usize)) -> Option<Self> {
+        let at = (a.iter().position(|&v| v == from)?, b.iter().position(|&v| v == to)?);
+        Some(Seam { a, b, at })
     }
-    None
+
+    /// Whether both corners where the rings are joined turn to the left.
+    fn is_convex(&self, outline: &[Point2]) -> bool {
+        let &Seam { a, b, at: (i, j) } = self;
+        let turns = |i: usize, j: usize, k: usize| orientation(outline[i], outline[j], outline[k]) > 0.0;
+        let (before, after) = (a[(i + a.len() - 1) % a.len()], a[(i + 2) % a.len()]);
+        turns(before, a[i], b[(j + 2) % b.len()]) && turns(b[(j + b.len() - 1) % b.len()], b[j], after)
+    }
+
+    /// The ring round both: all of `a` from the edge's end around to its beginning, then `b`'s vertices between.
+    fn ring(&self) -> Vec<usize> {
+        let &Seam { a, b, at: (i, j) } = self;
+        let first = (1..=a.len()).map(|k| a[(i + k) % a.len()]);
+        first.chain((2..b.len()).map(|k| b[(j + k) % b.len()])).collect()
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num;
     use crate::random::{Seed, Stream};
 
     fn points(p: &[(f64, f64)]) -> Vec<Point2> {
@@ -283,7 +307,22 @@ mod tests {
         triangles
     }
 
-    /// `merge` without its map of edges: every pair of pieces is tried again after every join.
+    /// Joins two rings along an edge that they share in opposite directions; `None` if they share none.
+    fn join(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
+        for i in 0..a.len() {
+            let (from, to) = (a[i], a[(i + 1) % a.len()]);
+            if let Some(j) = (0..b.len()).find(|&j| b[j] == to && b[(j + 1) % b.len()] == from) {
+                // all of `a` from `to` around to `from`, then `b`'s vertices between `from` and `to`
+                let mut ring: Vec<usize> = (1..=a.len()).map(|k| a[(i + k) % a.len()]).collect();
+                ring.extend((2..b.len()).map(|k| b[(j + k) % b.len()]));
+                return Some(ring);
+            }
+        }
+        None
+    }
+
+    /// `merge` without its map of edges and its seams: every pair of pieces is tried again after every join, and all of
+    /// the result's corners.
     fn merge_plainly(outline: &[Point2], mut pieces: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
         let mut at = 0;
         while at < pieces.len() {
@@ -329,6 +368,21 @@ mod tests {
             assert_eq!(merge(&outline, triangles.clone()), merge_plainly(&outline, triangles), "{outline:?}");
         }
         assert!(spirals > 40, "{spirals}");
+        // stars whose pieces are joined to one of many corners; in some, edges are as short as the smallest feature
+        let mut short = 0;
+        for round in 0..60 {
+            let n = 10 + s.below(60) as usize;
+            let size = if round % 3 == 0 { 0.004 } else { 1.0 };
+            let angle = |k: usize| std::f64::consts::TAU * k as f64 / n as f64;
+            let radius = |k: usize, s: &mut Stream| size * (if k % 2 == 0 { 2.0 } else { 1.0 } + s.uniform(0.0, 0.05));
+            let vertex = |k: usize, r: f64| Point2::new(r * num::cos(angle(k)), r * num::sin(angle(k)));
+            let outline: Vec<Point2> = (0..n).map(|k| vertex(k, radius(k, &mut s))).collect();
+            let triangles = triangulate(&outline);
+            let merged = merge(&outline, triangles.clone());
+            assert_eq!(merged, merge_plainly(&outline, triangles), "{outline:?}");
+            short += usize::from(convex_pieces(&outline).is_err());
+        }
+        assert!((1..=20).contains(&short), "{short}");
     }
 
     #[test]

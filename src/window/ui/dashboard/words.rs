@@ -22,8 +22,8 @@ use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
 /// Height of a robot's words before they have been laid out, points.
 const USUAL: f32 = 150.0;
 
-/// Width of a row that has room for a name and the scale, points.
-const BOTH: f32 = 300.0;
+/// Width of a row that has room for a name, who drives, and the scale, points.
+const BOTH: f32 = 390.0;
 
 /// Shows in `rect` what there is to say of a cockpit, whose world lies on the screen as `fit` says.
 pub fn words_in(
