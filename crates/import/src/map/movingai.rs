@@ -7,8 +7,9 @@ use crate::{ImportError, ImportProblem, OccupancyMap};
 use motion_lab_core::geometry::{Point2, Pose2};
 
 /// Reads a MovingAI map with cells of `resolution` metres: `.`, `G`, `S` and `E` are free; `@`, `O`, `T` and `W` are
-/// occupied. `E` is of the warehouses of the League of Robot Runners: a place where robots deliver. The lower left corner of the map is the origin, so cell (x, y), of which y counts from the top row, has
-/// its middle at `(x + 0.5, height - y - 0.5)` cells. `file` is the map's name in errors.
+/// occupied. `E` is of the warehouses of the League of Robot Runners: a place where robots deliver. The lower left
+/// corner of the map is the origin, so cell (x, y), of which y counts from the top row, has its middle at `(x + 0.5,
+/// height - y - 0.5)` cells. `file` is the map's name in errors.
 ///
 /// # Errors
 /// [`ImportError`] names line and column: a malformed head, too few or too many rows, a row of the wrong length, an

@@ -188,8 +188,8 @@ impl Import {
         cells.world(file, name, self.style()).map_err(refused)
     }
 
-    /// Where a map's image lies: where the yaml says, seen from the yaml's own folder. Many yaml files name it by a path
-    /// of whoever made them; then it is the one beside the yaml, with a note.
+    /// Where a map's image lies: where the yaml says, seen from the yaml's own folder. Many yaml files name it by the
+    /// path of whoever made them; then it is the one beside the yaml, with a note.
     fn image(&self, map: &mut RosMap) -> PathBuf {
         let named = self.beside(&map.image);
         let near = self.beside(Path::new(&map.image).file_name().unwrap_or_default());
