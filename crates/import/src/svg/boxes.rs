@@ -11,8 +11,9 @@ use crate::planar::{Affine, extent};
 use motion_lab_core::geometry::Aabb;
 
 impl<'a> SvgWalk<'a, '_> {
-    /// The box around what an element holds, in its own units, whether it is painted or cut or not. `None` if it holds
-    /// nothing, or if measuring it takes too much.
+    /// The box around what an element holds, in its own units, whether it is painted or cut or not: the least one, as
+    /// SVG 2 has it; Chromium takes a larger one around what is turned within. `None` if it holds nothing, or if
+    /// measuring it takes too much.
     pub fn fill_box(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Option<Aabb> {
         let scale = scale_of(around);
         let [width, height] = around.size.map(|side| side.unwrap_or(f64::NAN));

@@ -124,7 +124,7 @@ fn a_mask_that_cannot_be_read_leaves_out_what_it_hides_by_name() {
         (format!("{white} mask='url(#m)'/>"), "its mask has a mask itself"),
         (format!("<g clip-path='url(#c)'>{white}/></g>"), "its mask has a clip path itself"),
         ("<text fill='white'>a</text>".into(), "its mask holds a text"),
-        ("<image width='20' height='10'/>".into(), "its mask holds a image"),
+        ("<image width='20' height='10'/>".into(), "its mask holds an image"),
         ("<g id='x' fill='white'><use href='#x'/></g>".into(), "its mask is nested too deeply"),
         (format!("{white} transform='spin(3)'/>"), "a transform in its mask is not understood"),
         (

@@ -194,7 +194,8 @@ impl<'a> SvgWalk<'a, '_> {
         if !matches!(name, "g" | "a" | "use" | "path" | "rect" | "circle" | "ellipse" | "line" | "polyline" | "polygon")
         {
             let is_painted = matches!(name, "text" | "image" | "foreignObject" | "svg" | "switch");
-            return if is_painted { Err(format!("its mask holds a {name}")) } else { Ok(()) };
+            let article = if name == "image" { "an" } else { "a" };
+            return if is_painted { Err(format!("its mask holds {article} {name}")) } else { Ok(()) };
         }
         self.refuse_effects(node)?;
         if opacity < 1.0 {
