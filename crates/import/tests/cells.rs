@@ -49,6 +49,14 @@ fn what_is_unknown_is_occupied_unless_said_otherwise() {
     assert_eq!(solid.world, room(Unknown::Occupied).world("room.yaml", "Room", CellStyle::Solid).unwrap().world);
 }
 
+/// yaml-cpp, with which Nav2 reads, takes the first of them and PyYAML the last: neither is what the file says.
+#[test]
+fn a_key_that_stands_in_a_ros_map_twice_is_refused_by_name_and_line() {
+    let text = format!("{}negate: 0\n", sample("room.yaml"));
+    let error = RosMap::parse("room.yaml", &text).unwrap_err().to_string();
+    assert_eq!(error, format!("room.yaml:{}: negate: the key stands there twice", text.lines().count()));
+}
+
 #[test]
 fn what_map_saver_writes_for_unknown_and_the_thresholds_call_free_is_said() {
     // with 0.25, which map_saver of ROS 2 writes, the cell of degree 50 / 255 is free

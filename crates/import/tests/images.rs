@@ -81,6 +81,29 @@ fn a_png_says_the_same_as_a_pgm() {
     assert_eq!(occupied(&sharp), interlaced.iter().map(|shade| *shade <= 24).collect::<Vec<_>>());
 }
 
+/// 4 x 2 pixels of eight bits as a BMP with this palette, its rows from the bottom: 254, 205, 0, 128 and 0, 255, 1, 50.
+fn bmp(palette: impl Fn(u8) -> [u8; 4]) -> Vec<u8> {
+    let mut image = b"BM\0\0\0\0\0\0\0\0\x36\x04\0\0\x28\0\0\0\x04\0\0\0\x02\0\0\0\x01\0\x08\0".to_vec();
+    image.extend([0; 24]);
+    image.extend((0..=255).flat_map(palette));
+    image.extend([0, 255, 1, 50, 254, 205, 0, 128]);
+    image
+}
+
+#[test]
+fn a_bmp_says_the_same_as_a_pgm() {
+    let shades = [254, 205, 0, 128, 0, 255, 1, 50];
+    for more in ["", "mode: scale", "mode: raw", "negate: true", "free_thresh: 0.25"] {
+        let gray = cells(more, &bmp(|shade| [shade, shade, shade, 0]), Unknown::ByThresholds);
+        assert_eq!(gray, cells(more, &pgm(4, &shades), Unknown::ByThresholds), "{more}");
+        // a palette of red: of each shade 306 parts of 1024, as GraphicsMagick weighs it for Nav2
+        let red = cells(more, &bmp(|shade| [0, 0, shade, 0]), Unknown::ByThresholds);
+        let weighed = shades.map(|shade| (u32::from(shade) * 257 * 306 / 1024 / 257) as u8);
+        assert_eq!(red, cells(more, &pgm(4, &weighed), Unknown::ByThresholds), "{more}");
+    }
+    assert_eq!(occupied(&cells("", &bmp(|s| [s, s, s, 0]), Unknown::Free))[..4], [false, false, true, false]);
+}
+
 #[test]
 fn colours_count_as_shades_and_what_is_transparent_is_unknown() {
     // red has the shade 76 of 255, a degree of 0.70; the transparent gray is unknown whatever its shade

@@ -294,6 +294,52 @@ fn robots_keep_their_sizes_their_lidars_and_their_goals() {
 }
 
 #[test]
+fn a_robot_that_starts_outside_and_an_unknown_sensor_are_left_out_by_themselves_if_asked() {
+    let outside = "world: {width: 10, height: 10, offset: [5, 5]}\nrobot:\n  \
+                   - {kinematics: {name: diff}, state: [5, 15]}\n  \
+                   - number: 3\n    kinematics: {name: diff}\n    state: [[15, 5], [4.9, 9], [9, 9]]\n";
+    let starts = |imported: &Imported| -> Vec<Vec<f64>> {
+        imported.world.robots.iter().map(|robot| robot.start.clone()).collect()
+    };
+    let why = "the start (4.9, 9) lies outside the world, which reaches from (5, 5) to (15, 15)";
+    // what stands on the border stands in the world
+    let imported = lenient(outside);
+    assert_eq!(starts(&imported), [[5.0, 15.0, 0.0], [15.0, 5.0, 0.0], [9.0, 9.0, 0.0]]);
+    assert!(imported.notes.contains(&format!("robot[1] is left out: {why}")), "{:?}", imported.notes);
+    let strict = irsim("s.yaml", outside, "s").unwrap_err().to_string();
+    assert_eq!(strict, format!("s.yaml:4: robot[1]: not supported: {why}"));
+    let sensors =
+        "robot:\n  kinematics: {name: diff}\n  sensors: [{name: lidar2d_custom}, {name: lidar2d, number: 7}]\n";
+    let imported = lenient(sensors);
+    let kept: Vec<u32> = imported.world.robots[0].sensors.iter().map(|sensor| sensor.rays.sensor.n_rays).collect();
+    assert_eq!(kept, [7]);
+    let unknown = "a sensor lidar2d_custom; known are lidar2d and fmcw_lidar2d";
+    let note = format!("robot.sensors[0] is left out: {unknown}");
+    assert!(imported.notes.contains(&note), "{:?}", imported.notes);
+    let strict = irsim("s.yaml", sensors, "s").unwrap_err().to_string();
+    assert_eq!(strict, format!("s.yaml:3: robot.sensors[0]: not supported: {unknown}"));
+}
+
+/// PyYAML, with which IR-SIM reads, keeps the last one.
+#[test]
+fn of_a_key_that_stands_twice_the_last_one_counts_with_a_note() {
+    let text = "world: {width: 9, height: 9}\nobstacle:\n  - {state: [1, 1]}\nobstacle:\n  \
+                - {shape: {name: circle, radius: 1, radius: 0.5}, state: [4, 4]}\n";
+    let imported = irsim("s.yaml", text, "s").unwrap();
+    let parts: Vec<_> = imported.world.obstacles[0].placed().map(|part| part.bounds()).collect();
+    assert_eq!(
+        (imported.world.obstacles.len(), parts[0].min, parts[0].max),
+        (1, Point2::new(3.5, 3.5), Point2::new(4.5, 4.5))
+    );
+    for note in [
+        "obstacle stands in line 2 and again in line 4, which counts",
+        "radius stands in line 5 and again in line 5, which counts",
+    ] {
+        assert!(imported.notes.iter().any(|found| found == note), "{note}: {:?}", imported.notes);
+    }
+}
+
+#[test]
 fn more_obstacles_than_are_read_are_refused() {
     let read = |post: &str, posts: usize| {
         let text = format!("world: {{width: 9, height: 9}}\nobstacle:\n{}", post.repeat(posts));

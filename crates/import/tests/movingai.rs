@@ -32,7 +32,7 @@ fn movingai_maps_that_are_none_are_refused() {
     assert_eq!(refuse("height 6", "height 0"), "y.map:2: height: 0: it must be a whole number from 1 on");
     assert_eq!(refuse("width 10", "width ten"), "y.map:3: width: ten: it must be a whole number from 1 on");
     assert!(refuse("width 10", "width 99999999999").contains("cells: at most 16777216"));
-    assert_eq!(refuse("WGS", "WXS"), "y.map:8: column 8: 'X': it must be one of . G S @ O T W");
+    assert_eq!(refuse("WGS", "WXS"), "y.map:8: column 8: 'X': it must be one of . G S E @ O T W");
     assert_eq!(refuse("..TT..", "..TT."), "y.map:7: 9 signs: the head of the file tells 10");
     assert_eq!(refuse("height 6", "height 7"), "y.map: 6 rows: the head of the file tells 7");
     assert_eq!(refuse("height 6", "height 5"), "y.map: 6 rows: the head of the file tells 5");
@@ -60,6 +60,14 @@ fn heads_may_lack_the_type_and_have_tabs_and_another_order() {
         assert!(text.contains(from), "{from}");
         assert_eq!(movingai("y.map", &text.replace(from, to), 1.0).unwrap(), yard, "{to:?}");
     }
+}
+
+/// By the formats of the League of Robot Runners, whose warehouses have emitters `E` and service points `S`.
+#[test]
+fn robots_pass_the_places_of_a_warehouse() {
+    let map = movingai("w.map", "type octile\nheight 1\nwidth 5\nmap\nE@SET\n", 1.0).unwrap();
+    let occupied: Vec<bool> = (0..5).map(|column| map.grid.is_occupied(column, 0)).collect();
+    assert_eq!(occupied, [false, true, false, false, true]);
 }
 
 #[test]

@@ -140,6 +140,29 @@ fn a_scenario_brings_its_map_and_its_problems() {
     assert!(error.contains("yard.map: there is no such file"), "{error}");
 }
 
+/// Of 24 public maps tried, five name their image by a path of the machine that made it.
+#[test]
+fn the_image_of_a_ros_map_may_lie_beside_the_yaml_instead_of_where_it_says() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("far")).unwrap();
+    fs::write(folder.path().join("room.pgm"), "P2 2 1 255 0 255").unwrap();
+    let import = |image: &str| {
+        let text = format!("image: {image}\nresolution: 1\norigin: [0, 0, 0]\n");
+        fs::write(folder.path().join("room.yaml"), text).unwrap();
+        let output = run_in(folder.path(), &["world", "import", "room.yaml", "-o", "room.ron"]);
+        let said = output.err.clone();
+        output.done();
+        said
+    };
+    let moved = import("/home/someone/maps/room.pgm");
+    assert!(moved.contains("the image was read from room.pgm: /home/someone/maps/room.pgm is not there"), "{moved}");
+    assert!(moved.contains("wrote room.ron with 1 obstacle"), "{moved}");
+    assert!(!import("room.pgm").contains("was read from"));
+    // the one that the yaml names counts, if it is there
+    fs::write(folder.path().join("far/room.pgm"), "P2 3 1 255 0 255 0").unwrap();
+    assert!(import("far/room.pgm").contains("with 2 obstacles"));
+}
+
 #[test]
 fn imports_that_cannot_be_say_why() {
     let folder = tempfile::tempdir().unwrap();

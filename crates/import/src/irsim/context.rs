@@ -2,6 +2,7 @@
 
 use crate::yaml::{Fields, YamlNode, YamlValue};
 use crate::{ImportError, ImportProblem, WorldDraft};
+use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::worlds::{MAX_ITEMS, WorldProblem};
 
@@ -84,6 +85,12 @@ impl IrContext {
     /// The stream that draws this item's things.
     pub fn stream(&self, item: &str) -> Stream {
         Stream::new(self.options.seed, item)
+    }
+
+    /// The world's bounds.
+    pub fn bounds(&self) -> Aabb {
+        let ([x, y], [width, height]) = (self.min, self.size);
+        Aabb { min: Point2::new(x, y), max: Point2::new(x + width, y + height) }
     }
 
     /// What is read of an item. What the lab does not have is left out with a note, if so asked.

@@ -9,7 +9,7 @@ use crate::yaml::{Fields, YamlNode, YamlValue};
 use motion_lab_core::configuration::{CarSizes, DiscSizes, RobotKind, Sizes};
 use motion_lab_core::geometry::{Point2, Pose2};
 use motion_lab_core::num::wrap;
-use motion_lab_core::worlds::{BeamModel, FanSensor, RangeSensor, ResidentSensor};
+use motion_lab_core::worlds::{BeamModel, FanSensor, OutsideError, RangeSensor, ResidentSensor};
 use std::f64::consts::{PI, TAU};
 
 /// Adds the robots of an entry, and their goals as places.
@@ -40,7 +40,14 @@ pub(crate) fn robots(item: &str, node: &YamlNode, scene: &mut IrContext) -> Resu
         let name = scene.draft.world.numbered("goal");
         scene.draft.world.place(name, goal).map_err(put)?;
     }
+    let bounds = scene.bounds();
     for (i, pose) in group.states.iter().enumerate() {
+        // IR-SIM lets robots drive in from outside of what it draws
+        let within = OutsideError::check("start", pose.position(), &bounds);
+        let within = within.map_err(|outside| unsupported(node, item, outside.to_string()));
+        if scene.or_left_out(item, within)?.is_none() {
+            continue;
+        }
         let sizes = sizes.get(i).or(sizes.last()).cloned().flatten();
         let start = vec![pose.x, pose.y, pose.theta];
         let name = name.map(|node| node.each(i).text(&format!("{item}.name"))).transpose()?;
@@ -117,14 +124,17 @@ fn sensors_of(item: &str, node: &YamlNode, scene: &mut IrContext) -> Result<Vec<
         YamlValue::List(nodes) => nodes.iter().collect(),
         _ => vec![node],
     };
-    for node in nodes {
+    for (i, node) in nodes.into_iter().enumerate() {
         // a list of lists gives each robot its own: all get those of the first
         let node = node.each(0);
         let mut fields = node.fields(&at)?;
         let named = fields.take("name").or(fields.take("type"));
         let name = named.map_or(Ok("lidar2d"), |node| node.text(&at))?;
         if !matches!(name, "lidar2d" | "fmcw_lidar2d") {
-            return Err(unsupported(node, at, format!("a sensor {name}; known are lidar2d and fmcw_lidar2d")));
+            let item = format!("{at}[{i}]");
+            let unknown = format!("a sensor {name}; known are lidar2d and fmcw_lidar2d");
+            scene.or_left_out(&item, Err::<(), _>(unsupported(node, &item, unknown)))?;
+            continue;
         }
         let mut number = |key: &str, usual: f64| {
             fields.take(key).filter(|n| !n.is_null()).map_or(Ok(usual), |node| node.number(&format!("{at}.{key}")))

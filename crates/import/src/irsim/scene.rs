@@ -28,7 +28,8 @@ const IGNORED: [&str; 11] = [
 /// A robot of the kinematics `diff` becomes a Rusty, the disc that covers its shape, one of `acker` a Hitch of the
 /// sizes of its rectangle; their lidars become range sensors, their goals places. Speeds are this lab's own. An
 /// `unobstructed` obstacle becomes a painted mark; an unobstructed circle is left out. Keys of time, behaviour and
-/// looks are left out as well. Everything left out gets a note. `file` is the file's name in errors.
+/// looks are left out as well. Everything left out gets a note. Of a key that stands twice the last one counts, with a
+/// note. `file` is the file's name in errors.
 ///
 /// What is drawn at random, shapes too, follows from [`IrsimOptions::seed`] and the entry's number; IR-SIM draws other
 /// numbers.
@@ -42,24 +43,27 @@ pub fn irsim(file: &str, text: &str, name: &str, options: IrsimOptions) -> Resul
 }
 
 fn read(text: &str, name: &str, options: IrsimOptions) -> Result<Imported, ImportError> {
-    let tree = yaml::read(text)?;
+    let (tree, repeated) = yaml::read_as_python(text)?;
     let mut sections = tree.fields("")?;
     let world = sections.take("world").filter(|node| !node.is_null());
-    let (draft, room) = (WorldDraft::default(), IrRoom::default());
+    let (mut draft, room) = (WorldDraft::default(), IrRoom::default());
+    repeated.into_iter().for_each(|note| draft.note(note));
     let mut scene = IrContext { draft, options, min: [0.0; 2], size: [10.0; 2], room };
     if let Some(world) = world {
         bounds(world, &mut scene)?;
     }
-    for (item, node) in objects(sections.take("obstacle"), "obstacle") {
+    let (obstacle, robot) = (sections.take("obstacle"), sections.take("robot"));
+    scene.note_ignored(&mut sections, "", &["gui"]);
+    // before what stands in the world: without a size that is spelled right, all may lie outside
+    scene.finish(sections, "", "world, robot and obstacle")?;
+    for (item, node) in objects(obstacle, "obstacle") {
         let read = obstacles(&item, node, &mut scene);
         scene.or_left_out(&item, read)?;
     }
-    for (item, node) in objects(sections.take("robot"), "robot") {
+    for (item, node) in objects(robot, "robot") {
         let read = robots(&item, node, &mut scene);
         scene.or_left_out(&item, read)?;
     }
-    scene.note_ignored(&mut sections, "", &["gui"]);
-    scene.finish(sections, "", "world, robot and obstacle")?;
     let ([x, y], [width, height]) = (scene.min, scene.size);
     let line = world.map_or(0, |world| world.line);
     let finished = scene.draft.finish(name, (x, y), (x + width, y + height));

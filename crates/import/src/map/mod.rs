@@ -1,5 +1,6 @@
 //! Maps of cells: those of ROS and of MovingAI.
 
+pub(crate) mod bmp_image;
 pub(crate) mod cells;
 pub(crate) mod gray_image;
 pub(crate) mod image;

@@ -6,9 +6,10 @@ use crate::error::wrong_value;
 use crate::{ImportError, ImportProblem, OccupancyMap};
 use motion_lab_core::geometry::{Point2, Pose2};
 
-/// Reads a MovingAI map with cells of `resolution` metres: `.`, `G` and `S` are free; `@`, `O`, `T` and `W` are
-/// occupied. The lower left corner of the map is the origin, so cell (x, y), of which y counts from the top row, has
-/// its middle at `(x + 0.5, height - y - 0.5)` cells. `file` is the map's name in errors.
+/// Reads a MovingAI map with cells of `resolution` metres: `.`, `G`, `S` and `E` are free; `@`, `O`, `T` and `W` are
+/// occupied. `E` is of the warehouses of the League of Robot Runners: a place where robots deliver. The lower left
+/// corner of the map is the origin, so cell (x, y), of which y counts from the top row, has its middle at `(x + 0.5,
+/// height - y - 0.5)` cells. `file` is the map's name in errors.
 ///
 /// # Errors
 /// [`ImportError`] names line and column: a malformed head, too few or too many rows, a row of the wrong length, an
@@ -85,10 +86,10 @@ fn cells<'a>(lines: impl Iterator<Item = (usize, &'a str)>, columns: u64, rows: 
         }
         for (column, sign) in (1..).zip(row.chars()) {
             cells.push(match sign {
-                '.' | 'G' | 'S' => false,
+                '.' | 'G' | 'S' | 'E' => false,
                 '@' | 'O' | 'T' | 'W' => true,
                 _ => {
-                    let problem = wrong_value(format!("{sign:?}"), "one of . G S @ O T W");
+                    let problem = wrong_value(format!("{sign:?}"), "one of . G S E @ O T W");
                     return Err(ImportError::at(line, format!("column {column}"), problem));
                 }
             });

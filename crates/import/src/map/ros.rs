@@ -125,9 +125,9 @@ impl RosMap {
         Ok(RosMap { image, resolution, origin, negate, occupied_thresh, free_thresh, mode, notes })
     }
 
-    /// Reads the map's cells from the bytes of its image: a PGM, PPM, PBM or PNG, whatever its name. A colour counts as
-    /// its shade. `file` is the image's name in errors. A map that reaches beyond [`MAX_COORDINATE`] gets its own lower
-    /// left corner as the world's origin, with a note.
+    /// Reads the map's cells from the bytes of its image: a PGM, PPM, PBM, PNG or BMP, whatever its name. A colour
+    /// counts as its shade. `file` is the image's name in errors. A map that reaches beyond [`MAX_COORDINATE`] gets its
+    /// own lower left corner as the world's origin, with a note.
     ///
     /// # Errors
     /// [`ImportError`]: bytes that are no such image, an image cut short, or a size that no grid may have.

@@ -31,6 +31,12 @@ impl Affine {
         Affine([cos, sin, -sin, cos, 0.0, 0.0])
     }
 
+    /// The map without its displacement.
+    pub fn linear(&self) -> Self {
+        let [a, b, c, d, ..] = self.0;
+        Affine([a, b, c, d, 0.0, 0.0])
+    }
+
     /// The map that does `first`, then this one.
     pub fn after(&self, first: &Affine) -> Self {
         let ([a, b, c, d, e, f], [g, h, i, j, k, l]) = (self.0, first.0);

@@ -35,6 +35,11 @@ impl EllipticArc {
         EllipticArc { center: map.point(self.center), u: map.vector(self.u), v: map.vector(self.v), ..*self }
     }
 
+    /// The ellipse's centre and half-axes: of what size the numbers are that the arc's points are made of.
+    pub fn frame(&self) -> [Point2; 3] {
+        [self.center, Point2::from(self.u), Point2::from(self.v)]
+    }
+
     /// Where the arc turns back along an axis, as parts of the sweep from 0 to 1.
     pub fn turning_points(&self) -> Vec<f64> {
         let [x, y] = [num::atan2(self.v.x, self.u.x), num::atan2(self.v.y, self.u.y)];

@@ -1,5 +1,6 @@
 //! The boxes around curved parts, without following the curves.
 
+use super::affine::Affine;
 use super::curves::{along, end_of};
 use super::part::{CurvedPart, PathPiece};
 use motion_lab_core::geometry::{Aabb, Point2};
@@ -18,9 +19,24 @@ pub(crate) fn extent<'p>(parts: impl IntoIterator<Item = &'p CurvedPart>) -> Opt
 /// A point of these parts that lies farther out than [`MAX_PLANAR_COORDINATE`], or is not finite; `None` if there is
 /// none.
 pub(crate) fn beyond<'p>(parts: impl IntoIterator<Item = &'p CurvedPart>) -> Option<Point2> {
-    // written so that NaN is found
-    let is_within = |p: &Point2| p.x.abs() <= MAX_PLANAR_COORDINATE && p.y.abs() <= MAX_PLANAR_COORDINATE;
     parts.into_iter().flat_map(outermost).find(|p| !is_within(p))
+}
+
+/// Whether numbers of these parts stand for more than [`MAX_PLANAR_COORDINATE`] before a map displaces them: wherever
+/// it puts them, they have no micrometres.
+pub(crate) fn is_coarse(parts: &[CurvedPart], map: &Affine) -> bool {
+    let linear = map.linear();
+    let is_coarse_piece = |piece: &PathPiece| match piece {
+        PathPiece::Arc(arc, _) => !arc.frame().iter().all(is_within),
+        PathPiece::Line(_) | PathPiece::Cubic(..) => false,
+    };
+    let mut images = parts.iter().map(|part| part.mapped(&linear));
+    images.any(|part| beyond([&part]).is_some() || part.pieces.iter().any(is_coarse_piece))
+}
+
+/// Written so that NaN is not.
+fn is_within(p: &Point2) -> bool {
+    p.x.abs() <= MAX_PLANAR_COORDINATE && p.y.abs() <= MAX_PLANAR_COORDINATE
 }
 
 /// Points of a part, among them those with its least and greatest coordinates.

@@ -15,5 +15,5 @@ pub(crate) use affine::Affine;
 pub(crate) use arrangement::{Arrangement, Ring, micro, rounded};
 pub(crate) use curves::{PathOutline, disc, outline};
 pub(crate) use ellipse::{EllipticArc, arc_between};
-pub(crate) use extent::{beyond, extent};
+pub(crate) use extent::{beyond, extent, is_coarse};
 pub(crate) use part::{CurvedPart, PathPiece};

@@ -1,4 +1,4 @@
-//! Refuses SVG files with malformed or large numbers, or nested too deeply, by line, before a drawing is read.
+//! Refuses SVG files with malformed numbers, or nested too deeply, by line, before a drawing is read.
 
 use roxmltree::{Document, Node};
 
@@ -11,11 +11,8 @@ pub(crate) const SVG: &str = "http://www.w3.org/2000/svg";
 /// Greatest depth of nested elements.
 pub(crate) const DEEPEST: usize = 1000;
 
-/// Largest number in a shape's attributes. The number of pieces of an arc or a circle grows with its radius.
-pub(crate) const LARGEST: f64 = 1e7;
-
-/// What the numbers of shapes must be.
-pub(crate) const SMALL_NUMBERS: &str = "finite numbers, at most 10000000 in size";
+/// What the numbers of shapes must be. How large they may be is judged in metres, after all transforms.
+pub(crate) const NUMBERS: &str = "finite numbers";
 
 /// The note on text.
 pub(crate) const TEXT_LEFT_OUT: &str = "text is left out";
@@ -52,21 +49,21 @@ pub(crate) fn check(document: &Document) -> Result<Vec<String>, ImportError> {
     Ok(notes)
 }
 
-/// Checks the signs that a shape's numbers are made of, and the size of its lengths. The numbers of paths and points
-/// are checked where they are read.
+/// Checks the signs that a shape's numbers are made of, and that its lengths are numbers. The numbers of paths and
+/// points are checked where they are read.
 fn check_numbers(node: Node) -> Result<(), ImportError> {
     let is_sign = |c: char| c.is_ascii_whitespace() || "+-.,0123456789eE".contains(c);
     for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
         let (name, value) = (attribute.name(), attribute.value().trim());
         let good = match name {
             "rx" | "ry" if value == "auto" => true,
-            length if LENGTHS.contains(&length) => number_and_unit(value).is_some_and(|(x, _)| x.abs() <= LARGEST),
+            length if LENGTHS.contains(&length) => number_and_unit(value).is_some(),
             "d" => value.chars().all(|c| is_sign(c) || "MmZzLlHhVvCcSsQqTtAa".contains(c)),
             "points" => value.chars().all(is_sign),
             _ => true,
         };
         if !good {
-            return Err(at(node, wrong_value(format!("{name} = {value}"), SMALL_NUMBERS)));
+            return Err(at(node, wrong_value(format!("{name} = {value}"), NUMBERS)));
         }
     }
     Ok(())

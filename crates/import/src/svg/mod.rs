@@ -1,10 +1,11 @@
 //! SVG drawings: counted, checked, then read.
 
+pub(crate) mod boxes;
 pub(crate) mod check;
-pub(crate) mod clip_paths;
-pub(crate) mod clips;
 pub(crate) mod css;
+pub(crate) mod cuts;
 pub(crate) mod lengths;
+pub(crate) mod measured;
 pub(crate) mod obstacles;
 pub(crate) mod paint;
 pub(crate) mod read;

@@ -1,7 +1,7 @@
 //! `SvgObstacles`, which makes obstacles of drawn shapes.
 
 use super::check::Labels;
-use super::clips::{ClipLayers, ClipTable, is_in, meet};
+use super::cuts::clips::{ClipLayers, ClipTable, is_in, meet};
 use super::walk::DrawnShape;
 use crate::draft::WorldDraft;
 use crate::planar::{Arrangement, CurvedPart, PathOutline, Ring, beyond, disc, micro, outline, rounded};

@@ -1,10 +1,12 @@
 //! Reads SVG drawings: their shapes with all styles and transforms, in double precision from the text on.
 
+use std::rc::Rc;
+
 use roxmltree::{Document, Node, ParsingOptions};
 
 use super::check::{Labels, TEXT_LEFT_OUT, check};
 use super::obstacles::{MAX_COMPARISONS, MAX_LINE_POINTS, SvgObstacles};
-use super::paint::FONT_SIZE;
+use super::paint::{FONT_SIZE, Painter};
 use super::scan::scan;
 use super::style::StyleTable;
 use super::uses::{Targets, check_uses, is_drawn, targets};
@@ -44,16 +46,16 @@ impl Default for SvgOptions {
 ///
 /// Filled circles become discs. Other curves become chains of straight pieces within the tolerance. Coordinates are
 /// read in double precision and rounded to micrometres. Points closer than [`MIN_FEATURE`] to the one before are left
-/// out, and such points of crossing lines become one. Clip paths and the viewports of nested drawings cut what they
-/// hold. Images and what has a mask are left out, with a note. An obstacle is named after its element's id, or that of
-/// the `use` that repeats it, if there is one.
+/// out, and such points of crossing lines become one. Clip paths, masks of black and white, and the viewports of nested
+/// drawings cut what they hold. Images and what cannot be cut are left out, with a note. An obstacle is named after its
+/// element's id, or that of the `use` that repeats it, if there is one.
 ///
 /// # Errors
-/// [`ImportError`] names line and element: text that is not SVG; malformed numbers, or numbers above 10^7; shapes that
-/// lie out of a world where nothing cuts them, or anywhere more than 10^9 m from the origin; a drawing without
-/// obstacles, or with more than a world holds. A drawing may have at most 50,000 elements, including those
-/// repeated by `use`, nested at most 1,000 deep; 100 attributes an element and 200,000 in all; four megabytes of paths;
-/// and a quarter of a megabyte of style sheets.
+/// [`ImportError`] names line and element: text that is not SVG; malformed numbers, or numbers that stand for more than
+/// 10^9 m; shapes that lie out of a world where nothing cuts them, or anywhere more than 10^9 m from the origin; a
+/// drawing without obstacles, or with more than a world holds. A drawing may have at most 50,000 elements, including
+/// those repeated by `use`, nested at most 1,000 deep; 100 attributes an element and 200,000 in all; four megabytes of
+/// paths; and a quarter of a megabyte of style sheets.
 pub fn svg(file: &str, text: &str, name: &str, options: SvgOptions) -> Result<Imported, ImportError> {
     read(text, name, options).map_err(|error| error.of(file))
 }
@@ -99,7 +101,12 @@ struct SvgDrawing<'a> {
     options: SvgOptions,
 }
 
-impl SvgDrawing<'_> {
+impl<'a> SvgDrawing<'a> {
+    fn walk<'d>(&self, draft: &'d mut WorldDraft) -> SvgWalk<'a, 'd> {
+        let painter = Rc::new(Painter::new(self.targets, self.styles));
+        SvgWalk::new(self.styles, self.targets, self.labels, self.options.tolerance, painter, draft)
+    }
+
     /// Adds the drawing's obstacles; returns the width and height of its sheet, metres.
     fn obstacles(&self, draft: &mut WorldDraft) -> Result<(f64, f64), ImportError> {
         let size = sheet_size(self.root, FONT_SIZE);
@@ -108,7 +115,8 @@ impl SvgDrawing<'_> {
         // y points down in a drawing and up in a world
         let up = Affine([scale, 0.0, 0.0, -scale, 0.0, scale * pixels.1]);
         let viewport = view_box(self.root).map_or(pixels, |view| (view.width, view.height));
-        let mut walk = SvgWalk::new(self.styles, self.targets, self.labels, self.options.tolerance, draft);
+        let mut walk = self.walk(draft);
+        walk.is_placed = true;
         walk.drawing(self.root, up.after(&size.to_pixels), viewport)?;
         let (shapes, clips) = (walk.shapes, walk.clips);
         let sheet = (micro(pixels.0 * scale), micro(pixels.1 * scale));
@@ -132,7 +140,7 @@ impl SvgDrawing<'_> {
     fn extent(&self) -> Result<(f64, f64), ImportError> {
         const UNKNOWN: (f64, f64) = (100.0, 100.0);
         let mut draft = WorldDraft::default();
-        let mut walk = SvgWalk::new(self.styles, self.targets, self.labels, self.options.tolerance, &mut draft);
+        let mut walk = self.walk(&mut draft);
         walk.drawing(self.root, Affine::IDENTITY, UNKNOWN)?;
         let parts = walk.shapes.iter().flat_map(|shape| &shape.parts);
         Ok(extent(parts).map_or(UNKNOWN, |Aabb { max, .. }| (max.x, max.y)))

@@ -3,7 +3,7 @@
 use roxmltree::Node;
 use svgtypes::{PathParser, PathSegment, PointsParser};
 
-use super::check::{LARGEST, SMALL_NUMBERS, at, attribute};
+use super::check::{NUMBERS, at, attribute};
 use super::lengths::{Along, LengthScale};
 use crate::ImportError;
 use crate::error::wrong_value;
@@ -14,13 +14,13 @@ use motion_lab_core::num::lesser;
 /// The parts of a shape. Also returns what is wrong with its numbers, if its line is drawn only up to there.
 ///
 /// # Errors
-/// [`ImportError`] for numbers that are malformed or too large.
+/// [`ImportError`] for numbers that are malformed or not finite.
 pub(crate) fn parts(node: Node, scale: &LengthScale) -> Result<(Vec<CurvedPart>, bool), ImportError> {
     let length = |name: &str, along: Along| match attribute(node, name).filter(|text| text.trim() != "auto") {
         None => Ok(None),
-        Some(text) => match scale.length(text, along).filter(|x| x.abs() <= LARGEST) {
+        Some(text) => match scale.length(text, along).filter(|x| x.is_finite()) {
             Some(x) => Ok(Some(x)),
-            None => Err(at(node, wrong_value(format!("{name} = {text}"), "a length, at most 10000000 in size"))),
+            None => Err(at(node, wrong_value(format!("{name} = {text}"), "a length"))),
         },
     };
     let x = |name: &str| length(name, Along::X).map(Option::unwrap_or_default);
@@ -46,12 +46,12 @@ pub(crate) fn parts(node: Node, scale: &LengthScale) -> Result<(Vec<CurvedPart>,
             whole(ellipse(Point2::new(x("cx")?, y("cy")?), rx, ry))
         }
         name @ ("polyline" | "polygon") => points_part(node, name == "polygon"),
-        _ => path_parts(node),
+        _ => path_of(node),
     }
 }
 
 /// `None` if it has no area.
-fn ellipse(center: Point2, rx: f64, ry: f64) -> Option<CurvedPart> {
+pub(crate) fn ellipse(center: Point2, rx: f64, ry: f64) -> Option<CurvedPart> {
     let arc = EllipticArc::whole(center, Vector2::new(rx, 0.0), Vector2::new(0.0, ry));
     let start = arc.point(0.0);
     let pieces = vec![PathPiece::Arc(arc, start)];
@@ -59,7 +59,7 @@ fn ellipse(center: Point2, rx: f64, ry: f64) -> Option<CurvedPart> {
 }
 
 /// A rectangle with rounded corners; `None` if it has no area.
-fn rectangle(least: Point2, size: Vector2, radii: [Option<f64>; 2]) -> Option<CurvedPart> {
+pub(crate) fn rectangle(least: Point2, size: Vector2, radii: [Option<f64>; 2]) -> Option<CurvedPart> {
     if !(size.x > 0.0 && size.y > 0.0) {
         return None;
     }
@@ -87,7 +87,7 @@ fn rectangle(least: Point2, size: Vector2, radii: [Option<f64>; 2]) -> Option<Cu
 fn points_part(node: Node, closed: bool) -> Result<(Vec<CurvedPart>, bool), ImportError> {
     let text = attribute(node, "points").unwrap_or_default();
     let points: Vec<Point2> = PointsParser::from(text).map(|(x, y)| Point2::new(x, y)).collect();
-    check_size(node, "points", points.iter().flat_map(|p| [p.x, p.y]))?;
+    check_finite(node, "points", points.iter().flat_map(|p| [p.x, p.y]))?;
     let whole = text.split(|c: char| c.is_whitespace() || c == ',').filter(|part| !part.is_empty()).count();
     // numbers may also follow one another by their signs, so this is a lower bound of their count
     let cut = whole > 2 * points.len();
@@ -95,25 +95,32 @@ fn points_part(node: Node, closed: bool) -> Result<(Vec<CurvedPart>, bool), Impo
     Ok((if points.len() > 1 { vec![part] } else { Vec::new() }, cut))
 }
 
-fn check_size(node: Node, name: &str, numbers: impl IntoIterator<Item = f64>) -> Result<(), ImportError> {
-    // written so that NaN is refused
-    if numbers.into_iter().all(|x| x.abs() <= LARGEST) {
+fn check_finite(node: Node, name: &str, numbers: impl IntoIterator<Item = f64>) -> Result<(), ImportError> {
+    if numbers.into_iter().all(f64::is_finite) {
         return Ok(());
     }
     let text = attribute(node, name).unwrap_or_default();
-    Err(at(node, wrong_value(format!("{name} = {text}"), SMALL_NUMBERS)))
+    Err(at(node, wrong_value(format!("{name} = {text}"), NUMBERS)))
 }
 
-fn path_parts(node: Node) -> Result<(Vec<CurvedPart>, bool), ImportError> {
+fn path_of(node: Node) -> Result<(Vec<CurvedPart>, bool), ImportError> {
+    let text = attribute(node, "d").unwrap_or_default();
+    path_parts(text).ok_or_else(|| at(node, wrong_value(format!("d = {text}"), NUMBERS)))
+}
+
+/// The parts of a path. As in a browser, it is drawn up to its first mistake; also returns whether there is one. `None`
+/// for numbers that are not finite.
+pub(crate) fn path_parts(text: &str) -> Option<(Vec<CurvedPart>, bool)> {
     let mut pen =
         PathPen { parts: Vec::new(), here: Point2::origin(), start: Point2::origin(), control: MirroredControl::None };
-    for segment in PathParser::from(attribute(node, "d").unwrap_or_default()) {
-        // as in a browser, a path is drawn up to its first mistake
-        let Ok(segment) = segment else { return Ok((pen.finish(), true)) };
-        check_size(node, "d", numbers_of(&segment))?;
+    for segment in PathParser::from(text) {
+        let Ok(segment) = segment else { return Some((pen.finish(), true)) };
+        if !numbers_of(&segment).into_iter().all(f64::is_finite) {
+            return None;
+        }
         pen.draw(segment);
     }
-    Ok((pen.finish(), false))
+    Some((pen.finish(), false))
 }
 
 fn numbers_of(segment: &PathSegment) -> Vec<f64> {

@@ -1,20 +1,22 @@
 //! Walks through a drawing and collects the shapes that it paints, in metres.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use roxmltree::Node;
 
-use super::check::{Labels, attribute};
-use super::clips::{ClipRegion, ClipShape, ClipTable};
+use super::check::{Labels, at, attribute};
+use super::cuts::clips::{ClipRegion, ClipShape, ClipTable};
 use super::lengths::{Along, LengthScale, ratio};
+use super::measured::BoxTable;
 use super::paint::{FONT_SIZE, Inherited, Painter};
 use super::shapes::parts;
 use super::style::StyleTable;
 use super::transforms::{ReferenceBox, transform_list, transform_origin};
-use super::uses::{Targets, href, is_drawn, url_target};
+use super::uses::{Targets, href, is_drawn};
 use super::viewport::{ViewRect, fit, view_box};
 use crate::draft::WorldDraft;
-use crate::planar::{Affine, CurvedPart, beyond, extent};
+use crate::planar::{Affine, CurvedPart, beyond, is_coarse};
 use crate::{ImportError, ImportProblem};
 use motion_lab_core::geometry::{Aabb, Point2};
 
@@ -37,12 +39,12 @@ pub(crate) struct DrawnShape<'a> {
 pub(crate) struct WalkContext<'s> {
     /// From the element's units to metres.
     pub map: Affine,
-    style: Inherited,
-    viewport: (f64, f64),
+    pub style: Inherited,
+    pub viewport: (f64, f64),
     /// The id of the `use` that repeats the element.
-    repeated_by: Option<&'s str>,
+    pub repeated_by: Option<&'s str>,
     /// Width and height that a `use` gives.
-    size: [Option<f64>; 2],
+    pub size: [Option<f64>; 2],
 }
 
 /// Largest number of regions of all shapes together: regions may be nested as deeply as elements.
@@ -52,7 +54,7 @@ const MAX_CUTS: usize = 1_000_000;
 pub(crate) struct SvgWalk<'a, 'd> {
     pub styles: &'a StyleTable,
     pub targets: &'a Targets<'a>,
-    painter: Painter<'a>,
+    pub painter: Rc<Painter<'a>>,
     pub labels: &'a Labels,
     pub tolerance: f64,
     pub draft: &'d mut WorldDraft,
@@ -63,13 +65,26 @@ pub(crate) struct SvgWalk<'a, 'd> {
     pub clips_read: BTreeMap<(usize, [u64; 6]), usize>,
     /// What the clip paths that were read have taken.
     pub clip_work: usize,
+    /// Whether only the boxes around elements are asked for: what is painted and what is cut does not matter.
+    pub is_measuring: bool,
+    /// Whether the map leads to metres, so that shapes that lose digits are refused.
+    pub is_placed: bool,
+    pub boxes: BoxTable,
+}
+
+/// What cuts an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum CutKind {
+    ClipPath,
+    Mask,
 }
 
 /// What is still to be done; the last comes first.
 enum WalkStep<'a> {
     Element(Node<'a, 'a>, WalkContext<'a>),
-    /// Cuts the shapes from this one on, which are an element's, as its clip path says.
-    ClipPath {
+    /// Cuts the shapes from this one on, which are an element's, as its clip path or its mask says.
+    Cut {
+        kind: CutKind,
         node: Node<'a, 'a>,
         text: &'a str,
         around: WalkContext<'a>,
@@ -88,12 +103,13 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         targets: &'a Targets<'a>,
         labels: &'a Labels,
         tolerance: f64,
+        painter: Rc<Painter<'a>>,
         draft: &'d mut WorldDraft,
     ) -> Self {
         SvgWalk {
             styles,
             targets,
-            painter: Painter::new(targets, styles),
+            painter,
             labels,
             tolerance,
             draft,
@@ -103,6 +119,9 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             cuts: 0,
             clips_read: BTreeMap::new(),
             clip_work: 0,
+            is_measuring: false,
+            is_placed: false,
+            boxes: BoxTable::default(),
         }
     }
 
@@ -111,13 +130,21 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     pub fn drawing(&mut self, root: Node<'a, 'a>, map: Affine, viewport: (f64, f64)) -> Result<(), ImportError> {
         let around = WalkContext { map, style: Inherited::default(), viewport, repeated_by: None, size: [None; 2] };
         self.steps.push(WalkStep::Element(root, around));
+        self.run()
+    }
+
+    /// Does what is still to be done.
+    pub fn run(&mut self) -> Result<(), ImportError> {
         while let Some(step) = self.steps.pop() {
             match step {
                 WalkStep::Element(node, around) => self.element(node, &around)?,
                 WalkStep::Viewport { region, from } => self.cut(region, from),
-                WalkStep::ClipPath { node, text, around, from } => {
+                WalkStep::Cut { kind, node, text, around, from } => {
                     if self.shapes.len() > from
-                        && let Err(why) = self.clip(text, &around, from)
+                        && let Err(why) = match kind {
+                            CutKind::ClipPath => self.clip(node, text, &around, from),
+                            CutKind::Mask => self.mask(node, text, &around, from),
+                        }
                     {
                         self.shapes.truncate(from);
                         self.note(node, |label| format!("{label} is left out: {why}"));
@@ -147,6 +174,9 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     }
 
     fn element(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
+        if self.is_measuring {
+            self.boxes.take(node)?;
+        }
         if !is_drawn(&node) || self.styles.own(node, "display") == Some("none") || !is_chosen(&node) {
             return Ok(());
         }
@@ -165,26 +195,33 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let own = |property: &str| styles.own(node, property);
         let mut inner =
             WalkContext { style: around.style.at(node, styles, &self.painter, &scale_of(around)), ..*around };
-        if own("opacity").and_then(ratio).is_some_and(|opacity| opacity <= 0.0) {
+        if !self.is_measuring && own("opacity").and_then(ratio).is_some_and(|opacity| opacity <= 0.0) {
             self.draft.note("what is drawn invisibly is left out");
             return Ok(());
         }
-        if own("mask").and_then(url_target).is_some_and(|mask| self.targets.contains_key(mask)) {
-            self.note(node, |label| format!("{label} is left out: it has a mask"));
-            return Ok(());
-        }
-        match own("transform").map(|text| self.transform(node, text, &scale_of(&inner))) {
+        let scale = scale_of(&inner);
+        let of_box = |walk: &mut Self| walk.fill_box(node, &inner);
+        match own("transform").map(|text| self.transform(node, text, &scale, of_box)) {
             None => {}
             Some(Some(transform)) => inner.map = inner.map.after(&transform),
+            // a box around what is not where it belongs is none
+            Some(None) if self.is_measuring => {
+                return Err(at(node, ImportProblem::Unsupported("a transform that is not understood".into())));
+            }
             Some(None) => self.note(node, |label| format!("the transform of {label} is not understood or applied")),
         }
-        if let Some(text) = own("clip-path").filter(|text| *text != "none") {
-            self.steps.push(WalkStep::ClipPath { node, text, around: inner, from: self.shapes.len() });
+        const CUTS: [(&str, CutKind); 3] =
+            [("clip-path", CutKind::ClipPath), ("mask", CutKind::Mask), ("mask-image", CutKind::Mask)];
+        for (property, kind) in CUTS.into_iter().filter(|_| !self.is_measuring) {
+            if let Some(text) = own(property).filter(|text| !matches!(*text, "none" | "initial")) {
+                self.steps.push(WalkStep::Cut { kind, node, text, around: inner, from: self.shapes.len() });
+            }
         }
         self.content(node, &inner)
     }
 
-    fn content(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
+    /// What an element holds, without its own style and transform.
+    pub fn content(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
         match node.tag_name().name() {
             "svg" if node.parent_element().is_some() => self.nested(node, around),
             "use" => self.repeated(node, around),
@@ -207,7 +244,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
     fn shape(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<(), ImportError> {
         let (filled, stroked) = (around.style.fills(), around.style.strokes());
         let is_line = node.tag_name().name() == "line";
-        if around.style.hidden || !(filled && !is_line || stroked) {
+        if !self.is_measuring && (around.style.hidden || !(filled && !is_line || stroked)) {
             self.draft.note("what is drawn invisibly is left out");
             return Ok(());
         }
@@ -215,11 +252,15 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         if is_cut {
             self.note(node, |label| format!("{label} is drawn up to a mistake in its path"));
         }
+        let images = mapped(&parts, &around.map);
+        if self.is_placed && is_coarse(&parts, &around.map) && beyond(&images).is_none() {
+            let problem = "numbers that stand for more than a million kilometres: too few digits are left of them";
+            return Err(at(node, ImportProblem::Unsupported(problem.into())));
+        }
         let id = around.repeated_by.or(attribute(node, "id")).unwrap_or_default();
-        let parts = parts.iter().map(|part| part.mapped(&around.map)).collect();
         let (even_odd, clips) = (around.style.even_odd, Vec::new());
         let filled = filled && !is_line;
-        self.shapes.push(DrawnShape { id, element: node, parts, filled, stroked, even_odd, clips });
+        self.shapes.push(DrawnShape { id, element: node, parts: images, filled, stroked, even_odd, clips });
         Ok(())
     }
 
@@ -266,7 +307,7 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         let into = view.map_or_else(|| Affine::translate(x, y), |view| fit(node, view, port));
         let viewport = view.map_or((width, height), |view| (view.width, view.height));
         let inner = WalkContext { map: around.map.after(&into), viewport, size: [None; 2], ..*around };
-        if !matches!(self.styles.own(node, "overflow"), Some("visible" | "auto")) {
+        if !self.is_measuring && !matches!(self.styles.own(node, "overflow"), Some("visible" | "auto")) {
             let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
             let ring = corners.map(|(x, y)| around.map.point(Point2::new(x, y))).to_vec();
             if beyond(&[CurvedPart::ring(&ring)]).is_some() {
@@ -279,20 +320,35 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
         self.children(node, &inner);
     }
 
-    pub fn transform(&self, node: Node<'a, 'a>, text: &str, scale: &LengthScale) -> Option<Affine> {
+    /// Reads an element's transform, about its origin. `of_box` finds the box around what the element holds, in its own
+    /// units. `None` if it is not understood.
+    pub fn transform(
+        &mut self,
+        node: Node<'a, 'a>,
+        text: &str,
+        scale: &LengthScale,
+        of_box: impl FnOnce(&mut Self) -> Option<Aabb>,
+    ) -> Option<Affine> {
         let map = transform_list(text, scale)?;
-        let Some(origin) = self.styles.own(node, "transform-origin") else { return Some(map) };
-        let of_box = match self.styles.own(node, "transform-box") {
+        let styles = self.styles;
+        let (least, size) = match styles.own(node, "transform-box") {
             Some("fill-box" | "content-box") => {
-                let parts = parts(node, scale).ok()?.0;
-                let Aabb { min, max } = extent(&parts)?;
-                ReferenceBox { least: (min.x, min.y), size: (max.x - min.x, max.y - min.y) }
+                let Aabb { min, max } = of_box(self)?;
+                ((min.x, min.y), (max.x - min.x, max.y - min.y))
             }
-            _ => ReferenceBox { least: (0.0, 0.0), size: scale.viewport },
+            // strokes have no width here
+            Some("stroke-box" | "border-box") => return None,
+            _ => ((0.0, 0.0), scale.viewport),
         };
-        let (x, y) = transform_origin(origin, scale, of_box)?;
+        let origin = styles.own(node, "transform-origin").unwrap_or("0 0");
+        let (x, y) = transform_origin(origin, scale, ReferenceBox { least, size })?;
         Some(Affine::translate(x, y).after(&map).after(&Affine::translate(-x, -y)))
     }
+}
+
+/// The images of parts.
+pub(crate) fn mapped(parts: &[CurvedPart], map: &Affine) -> Vec<CurvedPart> {
+    parts.iter().map(|part| part.mapped(map)).collect()
 }
 
 pub(crate) fn scale_of(around: &WalkContext) -> LengthScale {

@@ -1,5 +1,6 @@
 //! Parses YAML into a tree in which every part knows its line. An alias is a copy of what its anchor names, within
 //! limits that keep the tree small; the key `<<` merges a mapping. Tags are refused: maps and scenes have none.
+//! A key that stands twice in a mapping is refused, unless the format's own reader settles which one counts.
 
 use std::collections::BTreeMap;
 
@@ -45,9 +46,21 @@ impl Anchored {
     }
 }
 
+/// What becomes of a key that stands in one mapping twice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum RepeatedKeys {
+    /// It is refused: readers disagree on it. yaml-cpp takes the first one, PyYAML the last.
+    #[default]
+    Refused,
+    /// The last one counts.
+    LastCounts,
+}
+
 /// A document under construction.
 #[derive(Default)]
 struct YamlBuilder {
+    repeated: RepeatedKeys,
+    notes: Vec<String>,
     open: Vec<OpenNode>,
     whole: Option<YamlNode>,
     values: usize,
@@ -55,23 +68,40 @@ struct YamlBuilder {
     copied: usize,
 }
 
-/// Parses a file that holds one document. An empty file is an empty mapping.
+/// Parses a file that holds one document. An empty file is an empty mapping. A key that stands in a mapping twice is
+/// refused.
 pub(crate) fn read(text: &str) -> Result<YamlNode, ImportError> {
+    build(text, RepeatedKeys::Refused).map(|builder| builder.whole())
+}
+
+/// Parses a file as PyYAML does: of a key that stands in a mapping twice the last one counts. Also returns a note on
+/// each.
+pub(crate) fn read_as_python(text: &str) -> Result<(YamlNode, Vec<String>), ImportError> {
+    let mut builder = build(text, RepeatedKeys::LastCounts)?;
+    let notes = std::mem::take(&mut builder.notes);
+    Ok((builder.whole(), notes))
+}
+
+fn build(text: &str, repeated: RepeatedKeys) -> Result<YamlBuilder, ImportError> {
     if text.bytes().filter(|b| b",[]{}".contains(b)).count() > MAX_SIGNS {
         return Err(unsupported(
             0,
             &format!("more than {MAX_SIGNS} of the signs , [ ] {{ }}; lists of a line each have none"),
         ));
     }
-    let mut builder = YamlBuilder::default();
+    let mut builder = YamlBuilder { repeated, ..YamlBuilder::default() };
     for event in Parser::new_from_str(text) {
         let (event, span) = event.map_err(|error| syntax(error.marker().line(), error.info()))?;
         builder.take(event, span.start.line())?;
     }
-    Ok(builder.whole.unwrap_or(YamlNode { line: 1, value: YamlValue::Mapping(Vec::new()) }))
+    Ok(builder)
 }
 
 impl YamlBuilder {
+    fn whole(self) -> YamlNode {
+        self.whole.unwrap_or(YamlNode { line: 1, value: YamlValue::Mapping(Vec::new()) })
+    }
+
     fn take(&mut self, event: Event, line: usize) -> Result<(), ImportError> {
         match event {
             Event::Scalar(_, _, _, Some(_)) | Event::SequenceStart(_, Some(_)) | Event::MappingStart(_, Some(_)) => {
@@ -137,7 +167,12 @@ impl YamlBuilder {
             Some(OpenNode::List(_, _, nodes)) => nodes.push(node),
             Some(OpenNode::Mapping(_, _, entries, key)) => match key.take() {
                 Some((key, key_line)) => entries.push((key, key_line, node)),
-                None => *key = Some(key_of(node, entries)?),
+                None => {
+                    if self.repeated == RepeatedKeys::LastCounts {
+                        self.notes.extend(without_earlier(&node, entries));
+                    }
+                    *key = Some(key_of(node, entries)?);
+                }
             },
         }
         Ok(())
@@ -164,6 +199,14 @@ fn merged(mut entries: Vec<(String, usize, YamlNode)>) -> Result<Vec<(String, us
         }
     }
     Ok(entries)
+}
+
+/// Removes the entry of this key, if there is one, and returns a note on it. Of `<<` every one counts.
+fn without_earlier(key: &YamlNode, before: &mut Vec<(String, usize, YamlNode)>) -> Option<String> {
+    let YamlValue::Scalar(text) = &key.value else { return None };
+    let at = before.iter().position(|(earlier, ..)| earlier == text && text != "<<")?;
+    let (name, line, _) = before.remove(at);
+    Some(format!("{name} stands in line {line} and again in line {}, which counts", key.line))
 }
 
 /// Reads a node as a key of a mapping. Refuses a key that is there already.

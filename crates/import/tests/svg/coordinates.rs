@@ -76,3 +76,54 @@ fn groups_nested_hundreds_deep_are_read() {
     let refused = motion_lab_import::svg("d.svg", &text, "d", super::SvgOptions::default()).unwrap_err();
     assert!(refused.to_string().contains("elements nested deeper than 1000"), "{refused}");
 }
+
+/// Numbers are judged in metres: a grid in millimetres is one in metres.
+#[test]
+fn a_national_grid_in_millimetres_keeps_its_micrometres() {
+    let shapes = "<rect id='pillar' x='2506752300' y='5624644700' width='600' height='400'/>\
+                  <path id='hut' d='M2506748250 5624643300h1300v900h-1300z'/>\
+                  <polygon id='kerb' points='2506746100,5624643200 2506749350,5624643200 2506749350,5624646450'/>\
+                  <circle id='post' cx='2506750060' cy='5624645040' r='60'/>\
+                  <path id='wall' fill='none' stroke='red' d='M2506745e3 5624648e3l1e3 0'/>";
+    let sheet = |inside: &str| {
+        format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='18.46' height='7.86' \
+             viewBox='2506744000 5624642000 18460 7860'>{inside}</svg>"
+        )
+    };
+    let undone = format!(
+        "<g transform='translate(2506744000 5624642000)'>\
+         <g transform='translate(-2506744000,-5624642000)'>{shapes}</g></g>"
+    );
+    let clipped = format!(
+        "<clipPath id='c'><rect x='2506744000' y='5624642000' width='18460' height='7860'/></clipPath>\
+         <g clip-path='url(#c)'>{shapes}</g>"
+    );
+    for inside in [shapes.to_owned(), undone, clipped] {
+        let world = import(&sheet(&inside)).world;
+        assert_eq!(extent(&world, "kerb"), [2.1, 3.41, 5.35, 6.66]);
+        assert_eq!(extent(&world, "pillar"), [8.3, 4.76, 8.9, 5.16]);
+        assert_eq!(extent(&world, "hut"), [4.25, 5.66, 5.55, 6.56]);
+        assert_eq!(extent(&world, "wall"), [1.0, 1.86, 2.0, 1.86]);
+        let (pose, _) = &world.obstacle("post").unwrap().pieces[0];
+        assert_eq!((pose.x, pose.y), (6.06, 4.82));
+    }
+}
+
+#[test]
+fn numbers_of_too_few_digits_are_refused_though_they_come_back() {
+    // doubles near 10^12 are 1.2e-4 apart, those near 10^9 1.2e-7
+    for (offset, is_read) in [("999999900", true), ("1000000000000", false), ("1e300", false)] {
+        let text = super::sheet(&format!(
+            "<g transform='translate(-{offset})'><g transform='translate(.25)'>\
+             <rect id='a' x='{offset}' y='2' width='4' height='2'/></g></g>"
+        ));
+        let read = motion_lab_import::svg("d.svg", &text, "d", super::SvgOptions::default());
+        if is_read {
+            assert_eq!(extent(&read.unwrap().world, "a"), [0.25, 6.0, 4.25, 8.0]);
+        } else {
+            let error = read.unwrap_err().to_string();
+            assert!(error.starts_with("d.svg:2: rect \"a\": not supported: numbers that stand for more"), "{error}");
+        }
+    }
+}

@@ -3,9 +3,11 @@
 mod clips;
 mod coordinates;
 mod fills;
+mod masks;
 mod paint;
 mod reach;
 mod round;
+mod shapes;
 mod styles;
 mod transforms;
 mod units;

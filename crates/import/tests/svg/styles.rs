@@ -40,3 +40,13 @@ fn selectors_for_long_classes_are_weighed_by_their_length() {
     assert_eq!(styled(&".a{fill:red}".repeat(80), &words), refused(80, 4));
     assert_eq!(styled(&".a{fill:red}".repeat(8), &words), Ok(1));
 }
+
+#[test]
+fn selectors_of_ten_parts_are_read_and_weighed_like_others() {
+    let rule = |parts: usize| format!("x{} {{fill:none}}", " g".repeat(parts - 1));
+    // each part may be any of the groups around the one before it: ways beyond all counting
+    assert_eq!(styled(&rule(10), &nested(300, &"<g/>".repeat(225))), refused(1, 300 + 225 + 3));
+    let room = "<g class='room'><g><g><g><rect id='r' width='2' height='2'/></g></g></g></g>";
+    assert_eq!(styled("svg > .room > g > g g #r{fill:none}", room), Ok(1));
+    assert_eq!(styled("svg > .room > g > g > #r{fill:none}", room), Ok(2), "no such element");
+}

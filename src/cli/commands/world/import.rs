@@ -24,12 +24,12 @@ use crate::cli::{Data, Failure, Outcome, say};
 
 /// Read a map or drawing of another program and write it as a world file.
 ///
-/// A ROS map is given by its yaml file; its image may be a PGM, PPM, PBM or PNG. In a MovingAI map . G S are free, @ O
-/// T W occupied. Of either the occupied cells become solid boxes. Of a MovingAI scenario (.scen) the map is read, and
-/// its problems become the places `start 1`, `goal 1`, `start 2` and so on. In an SVG drawing what is filled becomes a
-/// solid obstacle and what is only stroked a wall, called by their ids; it has its physical size, if it says one. Of
-/// an IR-SIM world the static obstacles are read, and its robots with their sizes and lidars as Rusty (diff) and Hitch
-/// (acker).
+/// A ROS map is given by its yaml file; its image may be a PGM, PPM, PBM, PNG or BMP. In a MovingAI map . G S E are
+/// free, @ O T W occupied. Of either the occupied cells become solid boxes. Of a MovingAI scenario (.scen) the map is
+/// read, and its problems become the places `start 1`, `goal 1`, `start 2` and so on. In an SVG drawing what is filled
+/// becomes a solid obstacle and what is only stroked a wall, called by their ids; it has its physical size, if it says
+/// one. Of an IR-SIM world the static obstacles are read, and its robots with their sizes and lidars as Rusty (diff)
+/// and Hitch (acker).
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -181,12 +181,23 @@ impl Import {
             map.origin.x += x;
             map.origin.y += y;
         }
-        // the image lies where the yaml says, seen from the yaml's own folder
-        let image = self.beside(&map.image);
+        let image = self.image(&mut map);
         let bytes = read_bytes(&image, MAX_TEXT)?;
         let unknown = self.unknown.unwrap_or_default();
         let cells = map.cells(&image.display().to_string(), &bytes, unknown).map_err(refused)?;
         cells.world(file, name, self.style()).map_err(refused)
+    }
+
+    /// Where a map's image lies: where the yaml says, seen from the yaml's own folder. Many yaml files name it by the
+    /// path of whoever made them; then it is the one beside the yaml, with a note.
+    fn image(&self, map: &mut RosMap) -> PathBuf {
+        let named = self.beside(&map.image);
+        let near = self.beside(Path::new(&map.image).file_name().unwrap_or_default());
+        if named.is_file() || !near.is_file() {
+            return named;
+        }
+        map.notes.push(format!("the image was read from {}: {} is not there", near.display(), map.image));
+        near
     }
 
     fn movingai(&self, file: &str, text: &str, name: &str) -> Result<Imported, Failure> {
@@ -227,7 +238,7 @@ fn kind_of(file: &Path) -> Result<ImportFormat, Failure> {
         "svg" => Ok(ImportFormat::Svg),
         "yaml" | "yml" if is_ros_map(&read_text_of(file, MAX_FOREIGN)?) => Ok(ImportFormat::Ros),
         "yaml" | "yml" => Ok(ImportFormat::Irsim),
-        "pgm" | "ppm" | "pbm" | "png" => Err(Failure::usage(
+        "pgm" | "ppm" | "pbm" | "png" | "bmp" => Err(Failure::usage(
             format!("{}: this is a ROS map's image", file.display()),
             "Name the yaml file beside it: that tells the size of a pixel and where the map lies.",
         )),

@@ -11,6 +11,8 @@ pub(crate) struct ClipShape {
     /// Closed lines.
     pub rings: Vec<Vec<Point2>>,
     pub even_odd: bool,
+    /// Whether it is what lies outside its lines.
+    is_inverted: bool,
     /// The regions that cut the shape itself.
     pub clips: Vec<usize>,
     /// Which way its border leads around it, 1 or -1, if it is one convex polygon.
@@ -74,7 +76,7 @@ impl ClipTable {
         let region = &self.regions[index];
         let in_shape = |shape: &ClipShape| {
             let winding = shape.rings.iter().map(|ring| winding(ring, p)).sum();
-            is_in(winding, shape.even_odd) && shape.clips.iter().all(|clip| self.contains(*clip, p))
+            shape.is_in(winding) && shape.clips.iter().all(|clip| self.contains(*clip, p))
         };
         region.clips.iter().all(|clip| self.contains(*clip, p)) && region.shapes.iter().any(in_shape)
     }
@@ -98,7 +100,7 @@ impl ClipTable {
         let region = &self.regions[index];
         let in_shape = |(i, shape): (usize, &ClipShape)| {
             let winding = layers.of.get(&(index, i)).and_then(|layer| windings.get(*layer)).copied().unwrap_or(0);
-            is_in(winding, shape.even_odd) && shape.clips.iter().all(|clip| self.is_inside(*clip, layers, windings))
+            shape.is_in(winding) && shape.clips.iter().all(|clip| self.is_inside(*clip, layers, windings))
         };
         region.clips.iter().all(|clip| self.is_inside(*clip, layers, windings))
             && region.shapes.iter().enumerate().any(in_shape)
@@ -160,7 +162,22 @@ impl ClipLayers {
 impl ClipShape {
     pub fn new(rings: Vec<Vec<Point2>>, even_odd: bool, clips: Vec<usize>) -> Self {
         let turn = if let [ring] = &rings[..] { convex_turn(ring) } else { None };
-        ClipShape { rings, even_odd, clips, turn }
+        ClipShape { rings, even_odd, is_inverted: false, clips, turn }
+    }
+
+    /// What lies outside the shape's lines, and in the regions that cut it.
+    pub fn inverted(self) -> Self {
+        ClipShape { is_inverted: !self.is_inverted, turn: None, ..self }
+    }
+
+    /// All that lies in a region.
+    pub fn of_region(region: usize) -> Self {
+        ClipShape::new(Vec::new(), false, vec![region]).inverted()
+    }
+
+    /// Whether a place with this winding number is inside, but for the regions that cut the shape.
+    fn is_in(&self, winding: i32) -> bool {
+        is_in(winding, self.even_odd) != self.is_inverted
     }
 
     /// Whether the shape is one convex polygon and holds these points.
@@ -178,7 +195,7 @@ impl ClipShape {
         let free = |ends: [Point2; 2]| Aabb::around(&ends).is_some_and(|edge| !meet(&edge, extent));
         let center = extent.centre();
         self.rings.iter().flat_map(|ring| edges(ring)).all(free)
-            && is_in(self.rings.iter().map(|ring| winding(ring, center)).sum(), self.even_odd)
+            && self.is_in(self.rings.iter().map(|ring| winding(ring, center)).sum())
     }
 }
 

@@ -2,15 +2,15 @@
 
 use roxmltree::Node;
 
-use super::check::attribute;
 use super::clips::{ClipRegion, ClipShape};
-use super::lengths::{Along, LengthScale};
-use super::shapes::parts;
-use super::style::StyleTable;
-use super::uses::{href, is_drawn, url_target};
-use super::walk::{SvgWalk, WalkContext, scale_of};
-use crate::planar::{Affine, CurvedPart, beyond, extent, outline};
-use motion_lab_core::geometry::Aabb;
+use crate::planar::{Affine, CurvedPart, beyond, extent, is_coarse, outline};
+use crate::svg::check::attribute;
+use crate::svg::lengths::{Along, LengthScale};
+use crate::svg::shapes::parts;
+use crate::svg::style::StyleTable;
+use crate::svg::uses::{href, is_drawn, url_target};
+use crate::svg::walk::{SvgWalk, WalkContext, mapped, scale_of};
+use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::worlds::MAX_ITEMS;
 
 /// Bytes of the attributes of all clip paths together, a hundred for each of their elements and of the pieces whose box
@@ -19,29 +19,28 @@ use motion_lab_core::worlds::MAX_ITEMS;
 const MAX_CLIP_WORK: usize = 8 << 20;
 
 /// Depth of clip paths that are cut themselves.
-const MAX_CLIP_DEPTH: usize = 10;
+pub(super) const MAX_CLIP_DEPTH: usize = 10;
 
 /// Why an element is left out.
-type LeftOut = String;
+pub(super) type LeftOut = String;
 
 impl<'a> SvgWalk<'a, '_> {
-    /// Cuts the shapes from `before` on as a property says.
-    pub fn clip(&mut self, text: &str, around: &WalkContext<'a>, before: usize) -> Result<(), LeftOut> {
-        let Some(id) = url_target(text) else { return Err("its clip path is not of the drawing".into()) };
+    /// Cuts the shapes from `before` on, which are this element's, as a property says.
+    pub fn clip(
+        &mut self,
+        node: Node<'a, 'a>,
+        text: &str,
+        around: &WalkContext<'a>,
+        before: usize,
+    ) -> Result<(), LeftOut> {
+        let Some(id) = url_target(text) else { return self.clip_by_shape(node, text, around, before) };
         // as in browsers, one that is not there cuts nothing
         let Some(target) = self.targets.get(id).copied().filter(|t| t.tag_name().name() == "clipPath") else {
             return Ok(());
         };
         let mut map = around.map;
         if attribute(target, "clipPathUnits") == Some("objectBoundingBox") {
-            let back = map.inverse().ok_or("its transform flattens it")?;
-            let parts = || self.shapes[before..].iter().flat_map(|shape| &shape.parts);
-            self.spend(parts().map(|part| 100 * (1 + part.pieces.len())).sum())?;
-            let parts = self.shapes[before..].iter().flat_map(|shape| &shape.parts);
-            let parts: Vec<CurvedPart> = parts.map(|part| part.mapped(&back)).collect();
-            let Aabb { min, max } = extent(&parts).ok_or("it has no box to cut")?;
-            let size = max - min;
-            map = map.after(&Affine([size.x, 0.0, 0.0, size.y, min.x, min.y]));
+            map = self.box_map(node, around)?;
         }
         let style = ClipStyle::USUAL;
         let region = self.clip_region(target, &ClipContext { map, scale: scale_of(around), style, depth: 0 })?;
@@ -49,8 +48,15 @@ impl<'a> SvgWalk<'a, '_> {
         Ok(())
     }
 
+    /// The map to metres from parts of the box around an element.
+    pub(super) fn box_map(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<Affine, LeftOut> {
+        let Aabb { min, max } = self.fill_box(node, around).ok_or("it has no box to cut")?;
+        let size = max - min;
+        Ok(around.map.after(&Affine([size.x, 0.0, 0.0, size.y, min.x, min.y])))
+    }
+
     /// Counts work, by the measure of [`MAX_CLIP_WORK`].
-    fn spend(&mut self, work: usize) -> Result<(), LeftOut> {
+    pub(super) fn spend(&mut self, work: usize) -> Result<(), LeftOut> {
         self.clip_work = self.clip_work.saturating_add(work);
         if self.clip_work > MAX_CLIP_WORK {
             return Err("the clip paths of the drawing are too large".into());
@@ -83,17 +89,25 @@ impl<'a> SvgWalk<'a, '_> {
     }
 
     /// Where an element stands within, with its style and its transform; `None` if that is not understood.
-    fn clip_context(&self, node: Node<'a, 'a>, around: &ClipContext) -> Option<ClipContext> {
-        let map = match self.styles.own(node, "transform").map(|text| self.transform(node, text, &around.scale)) {
-            Some(own) => around.map.after(&own?),
-            None => around.map,
-        };
+    fn clip_context(&mut self, node: Node<'a, 'a>, around: &ClipContext) -> Option<ClipContext> {
+        let map = around.map.after(&self.own_map(node, &around.scale)?);
         Some(ClipContext { map, style: around.style.at(node, self.styles), ..*around })
+    }
+
+    /// The transform of an element of a clip path or a mask; `None` if it is not understood.
+    pub(super) fn own_map(&mut self, node: Node<'a, 'a>, scale: &LengthScale) -> Option<Affine> {
+        let styles = self.styles;
+        let Some(text) = styles.own(node, "transform") else { return Some(Affine::IDENTITY) };
+        self.transform(node, text, scale, |_| extent(&parts(node, scale).ok()?.0))
     }
 
     /// The regions that cut an element of a clip path, or the clip path itself.
     fn clips_of(&mut self, node: Node<'a, 'a>, around: &ClipContext) -> Result<Vec<usize>, LeftOut> {
-        let target = self.styles.own(node, "clip-path").and_then(url_target).and_then(|id| self.targets.get(id));
+        let text = self.styles.own(node, "clip-path").filter(|text| !matches!(*text, "none" | "initial"));
+        if text.is_some_and(|text| url_target(text).is_none()) {
+            return Err("its clip path is cut by a shape of a style sheet".into());
+        }
+        let target = text.and_then(url_target).and_then(|id| self.targets.get(id));
         let Some(target) = target.copied().filter(|target| target.tag_name().name() == "clipPath") else {
             return Ok(Vec::new());
         };
@@ -101,6 +115,26 @@ impl<'a> SvgWalk<'a, '_> {
             return Err("its clip path is cut by the box around another shape".into());
         }
         Ok(vec![self.clip_region(target, &around.deeper())?])
+    }
+
+    /// The closed lines of what cuts, metres. Errors call it `what`.
+    pub(super) fn rings(
+        &mut self,
+        parts: &[CurvedPart],
+        map: &Affine,
+        what: &str,
+    ) -> Result<Vec<Vec<Point2>>, LeftOut> {
+        let is_coarse = is_coarse(parts, map);
+        let parts = mapped(parts, map);
+        if is_coarse || beyond(&parts).is_some() {
+            return Err(format!("{what} reaches too far"));
+        }
+        let mut room = MAX_ITEMS;
+        let ring = |part: &CurvedPart| Some(outline(part, self.tolerance, &mut room)?.points);
+        let rings: Option<Vec<_>> = parts.iter().map(ring).collect();
+        let rings = rings.ok_or_else(|| format!("the curves of {what} are too large"))?;
+        self.spend(8 * rings.iter().map(Vec::len).sum::<usize>())?;
+        Ok(rings)
     }
 
     /// Reads one shape of a clip path; `None` if it does not show.
@@ -129,15 +163,7 @@ impl<'a> SvgWalk<'a, '_> {
                 let clips = self.clips_of(node, &inner)?;
                 let parts =
                     parts(node, &around.scale).map_err(|error| format!("its clip path has {}", error.problem))?;
-                let parts: Vec<CurvedPart> = parts.0.iter().map(|part| part.mapped(&inner.map)).collect();
-                if beyond(&parts).is_some() {
-                    return Err("its clip path reaches too far".into());
-                }
-                let mut room = MAX_ITEMS;
-                let ring = |part: &CurvedPart| Some(outline(part, self.tolerance, &mut room)?.points);
-                let rings: Option<Vec<_>> = parts.iter().map(ring).collect();
-                let rings = rings.ok_or("the curves of its clip path are too large")?;
-                self.spend(8 * rings.iter().map(Vec::len).sum::<usize>())?;
+                let rings = self.rings(&parts.0, &inner.map, "its clip path")?;
                 Ok(Some(ClipShape::new(rings, inner.style.is_even_odd, clips)))
             }
             "text" if !inner.style.is_hidden => Err("its clip path is a text".into()),
@@ -182,6 +208,6 @@ impl ClipStyle {
 }
 
 /// What it takes to read an element, by the measure of [`MAX_CLIP_WORK`].
-fn reading_work(node: Node) -> usize {
+pub(super) fn reading_work(node: Node) -> usize {
     100 + node.attributes().map(|attribute| attribute.value().len()).sum::<usize>()
 }
