@@ -140,7 +140,7 @@ fn a_scenario_brings_its_map_and_its_problems() {
     assert!(error.contains("yard.map: there is no such file"), "{error}");
 }
 
-/// Of 24 public maps tried, five name their image by a path of the machine that made it.
+/// Of 24 public maps tried, three name their image by a path of the machine that made it.
 #[test]
 fn the_image_of_a_ros_map_may_lie_beside_the_yaml_instead_of_where_it_says() {
     let folder = tempfile::tempdir().unwrap();
