@@ -101,3 +101,30 @@ fn bug2_that_went_past_a_place_to_leave_from_leaves_where_it_was_nearest() {
     });
     assert!(path.legs().len() > 100);
 }
+
+/// A wall across the room with a gap of this width for a disc of 20 cm, and a place on either side of it, not in line
+/// with the gap.
+fn through_a_gap(width: f64) -> Problem<RustyDisc> {
+    let half = 0.5 * width;
+    let checker = room(&[[0.0, -2.5, 0.0, 0.4 - half], [0.0, 0.4 + half, 0.0, 2.5]]);
+    Problem::try_new(checker, R2::new(-1.0, -0.5), R2::new(1.0, -0.5), Seed(1)).unwrap()
+}
+
+#[test]
+fn bugs_pass_a_gap_for_which_they_keep_less_than_they_like() {
+    // with half the radius kept on either side a gap has to be 30 cm wide, with a sixteenth 21.25 cm
+    for width in [0.31, 0.29, 0.24, 0.22, 0.214] {
+        let problem = through_a_gap(width);
+        let mut bugs: [Box<dyn Planner<RustyDisc>>; 2] =
+            [Box::new(Bug1::try_new(&problem).unwrap()), Box::new(Bug2::try_new(&problem).unwrap())];
+        for bug in &mut bugs {
+            let path = solved(bug.as_mut(), 1, |corners| disc_clearance(problem.checker().scene(), 0.1, corners));
+            let room = 0.5 * (width - 0.2);
+            assert!(path.clearance() <= room && path.clearance() > 0.0, "{} {width}", bug.name());
+        }
+    }
+    let problem = through_a_gap(0.21);
+    let none = solve(&mut Bug2::try_new(&problem).unwrap(), &Bounds::default()).unwrap_err();
+    assert_eq!(none, NoPath::Enclosed { kept: 0.00625 });
+    assert!(solve(&mut VisibilityGraph::new(problem), &Bounds::default()).is_ok(), "there is a way all the same");
+}
