@@ -48,8 +48,8 @@ pub struct Task {
     pub goal: AnyConfiguration,
     /// How much larger a rover is planned, metres, so that its script may stray from the path by as much.
     pub tube: f64,
-    /// The clearance that the path is to keep beside the tube, metres; with 0 it only touches nothing. A path that keeps
-    /// it is proven: [`CheckerName::EXACT`] alone plans so, and no robot that walks by its sensor does.
+    /// The clearance that the path is to keep beside the tube, metres; with 0 it only touches nothing. A path that
+    /// keeps it is proven: [`CheckerName::EXACT`] alone plans so, and no robot that walks by its sensor does.
     pub clearance: f64,
     /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
     /// sensor.
