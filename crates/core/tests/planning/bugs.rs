@@ -90,6 +90,20 @@ fn bugs_find_a_way_wherever_there_is_one_for_the_clearance_that_they_keep() {
     assert!(ways > 40 && rounds > 15, "{ways} {rounds}");
 }
 
+/// At this seed both come round by another way than the one on which they came to the boundary.
+const NOT_BACK: u64 = 284;
+
+#[test]
+fn a_round_is_closed_that_does_not_come_back_to_where_it_began() {
+    let problem = clutter(NOT_BACK);
+    assert!(has_way(&problem));
+    let mut bugs: [Box<dyn Planner<RustyDisc>>; 2] =
+        [Box::new(Bug1::try_new(&problem).unwrap()), Box::new(Bug2::try_new(&problem).unwrap())];
+    for bug in &mut bugs {
+        solved(bug.as_mut(), NOT_BACK, |corners| disc_clearance(problem.checker().scene(), 0.1, corners));
+    }
+}
+
 /// At this seed Bug2's steps go past the place to leave from; before, it said that there was no path.
 const GOES_PAST: u64 = 651;
 

@@ -80,7 +80,7 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
                     self.phase = Bug1Phase::Return { nodes: self.walker.way_back(from, node) };
                     return None;
                 }
-                self.phase = Bug1Phase::Round { from };
+                self.phase = Bug1Phase::Round { from: self.walker.beginning(from) };
                 self.follow()
             }
             Bug1Phase::Return { mut nodes } => match nodes.pop() {

@@ -110,7 +110,10 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
         let from = from.or_else(|| (steps >= SETTLE).then(|| self.walker.node()));
         self.phase = match from.filter(|from| self.walker.is_back(*from)) {
             Some(from) => Bug2Phase::Return { nodes: self.walker.way_back(from, self.walker.node()) },
-            None => Bug2Phase::Follow { hit, steps: steps + 1, from },
+            None => {
+                let from = from.map(|from| self.walker.beginning(from));
+                Bug2Phase::Follow { hit, steps: steps + 1, from }
+            }
         };
         None
     }
