@@ -1,21 +1,30 @@
 //! `CheckedAxis`, one thing that a sweep varies and the values it takes.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::error::SweepProblem;
 use super::parameter::{Parameter, ValueForm};
-use super::values::{AxisValue, Over, WrittenNumber};
+use super::values::{AxisValue, NumberedProblem, Over, WrittenNumber};
 use motion_lab_core::configuration::{RobotKind, WrittenCoordinate};
 use motion_lab_core::random::{Seed, Stream};
+use motion_lab_import::Scenario;
+
+/// The scenarios of a study, by the names it gives them.
+pub(super) type Scenarios = BTreeMap<String, Arc<Scenario>>;
 
 /// An axis whose values fit its parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CheckedAxis {
     pub parameter: Parameter,
     over: Over,
+    /// The scenario of an axis of problems.
+    scenario: Option<Arc<Scenario>>,
 }
 
 impl CheckedAxis {
-    /// The axis, if its values fit its parameter.
-    pub fn try_new(parameter: Parameter, over: Over) -> Result<Self, SweepProblem> {
+    /// The axis, if its values fit its parameter. `scenarios` are those that the study has, by the names it gives them.
+    pub fn try_new(parameter: Parameter, over: Over, scenarios: &Scenarios) -> Result<Self, SweepProblem> {
         let form = parameter.form();
         let fits = matches!(
             (&over, form),
@@ -23,6 +32,7 @@ impl CheckedAxis {
                 | (Over::Range(..) | Over::Values(_), ValueForm::Whole(_))
                 | (Over::Names(_), ValueForm::Name)
                 | (Over::Starts(_), ValueForm::Start)
+                | (Over::Problems(_), ValueForm::Problem)
         );
         if !fits {
             return Err(SweepProblem::Values { found: over.in_words(), expected: form.in_words() });
@@ -39,23 +49,41 @@ impl CheckedAxis {
         if form != ValueForm::Number("rad") && over.written().iter().any(is_degrees) {
             return Err(SweepProblem::Degrees);
         }
+        let scenario = match &over {
+            Over::Problems(file) => {
+                let missing = || SweepProblem::Run(format!("there is no scenario {file:?}"));
+                Some(Arc::clone(scenarios.get(file).ok_or_else(missing)?))
+            }
+            _ => None,
+        };
         match over {
             Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(count)),
             Over::Steps(from, to, _) | Over::Uniform(from, to) if !(to.real() - from.real()).is_finite() => {
                 Err(SweepProblem::Span(from.real(), to.real()))
             }
             _ if over.len() == Some(0) => Err(SweepProblem::Empty),
-            over => Ok(CheckedAxis { parameter, over }),
+            over => Ok(CheckedAxis { parameter, over, scenario }),
         }
     }
 
     /// The number of its values; `None` for a range without steps.
     pub fn len(&self) -> Option<u64> {
-        self.over.len()
+        self.scenario.as_ref().map_or(self.over.len(), |scenario| Some(scenario.problems.len() as u64))
+    }
+
+    /// The problem with this number, from 0, of an axis of problems; the last one beyond the end.
+    fn problem(&self, i: u64) -> Option<NumberedProblem> {
+        let (Over::Problems(file), Some(scenario)) = (&self.over, &self.scenario) else { return None };
+        let number = i.saturating_add(1).min(scenario.problems.len() as u64);
+        let problem = scenario.problems.get(usize::try_from(number).ok()?.checked_sub(1)?)?.clone();
+        Some(NumberedProblem { file: file.clone(), number, scenario: Arc::clone(scenario), problem })
     }
 
     /// Its value with this number, from 0; the last one beyond the end.
     pub fn value(&self, i: u64) -> AxisValue {
+        if let Some(problem) = self.problem(i) {
+            return AxisValue::Problem(problem);
+        }
         let at = |len: usize| usize::try_from(i).unwrap_or(usize::MAX).min(len.saturating_sub(1));
         match &self.over {
             Over::Range(from, _) => self.whole(from.saturating_add(i)),
@@ -68,6 +96,8 @@ impl CheckedAxis {
             }
             Over::Uniform(from, _) => self.number(from.real()),
             Over::Names(names) => AxisValue::Name(names[at(names.len())].clone()),
+            // a scenario has a problem
+            Over::Problems(file) => AxisValue::Name(file.clone()),
             Over::Starts(starts) => {
                 AxisValue::Start(starts[at(starts.len())].iter().map(|coordinate| coordinate.value()).collect())
             }

@@ -52,6 +52,17 @@ pub(super) const OF_ROBOT: [(&str, CellKind, &str, &str); 6] = [
     ("refusals", CellKind::Whole, "", "inputs of the script that it refused"),
 ];
 
+/// What is known of a problem: the names, and what they are.
+const OF_PROBLEM: [(&str, CellKind, &str, &str); 7] = [
+    ("problem", CellKind::Whole, "", "number of the problem in its scenario, from 1"),
+    ("problem.bucket", CellKind::Whole, "", "its bucket by the scenario"),
+    ("problem.start.x", CellKind::Number, "m", "where the robot starts"),
+    ("problem.start.y", CellKind::Number, "m", "where the robot starts"),
+    ("problem.goal.x", CellKind::Number, "m", "where it should go"),
+    ("problem.goal.y", CellKind::Number, "m", "where it should go"),
+    ("problem.optimal", CellKind::Number, "m", "length of the shortest way in eight directions by the scenario"),
+];
+
 /// A column with the unit behind its name.
 fn column(name: impl Into<String>, kind: CellKind, unit: &str, about: impl Into<String>) -> Column {
     let name = name.into();
@@ -73,6 +84,7 @@ fn of_axis(axis: &CheckedAxis) -> Vec<Column> {
             };
             coordinates(kind).map(|(c, unit)| column(format!("{name}.{c}"), CellKind::Number, unit, about)).collect()
         }
+        ValueForm::Problem => OF_PROBLEM.map(|(end, kind, unit, about)| column(end, kind, unit, about)).to_vec(),
     }
 }
 

@@ -35,7 +35,7 @@ impl<'a> RowGatherer<'a> {
     /// A gatherer for the run of this row.
     pub fn new(study: &'a Study, row: u64, config: &'a TourConfig, script: &'a Script) -> Self {
         let residents: Vec<&Resident> = config.worlds.iter().flat_map(|world| &world.robots).collect();
-        let goal = study.goal().and_then(|goal| {
+        let goal = study.goal_of(row, &config.worlds).and_then(|goal| {
             let robot = residents.iter().position(|resident| resident.name == goal.robot)?;
             let about = study.kinds.of(&residents[robot].kind);
             Some(GoalWatch { robot, about, at: goal.at(), within: goal.within(), ticks: 0, first: None })

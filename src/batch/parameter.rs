@@ -26,6 +26,9 @@ pub(super) enum RunParameter {
     Planner,
     PlannerIterations,
     PlannerTube,
+    PlannerClearance,
+    /// Start and goal of the goal's robot.
+    Problem,
     World,
     Rays,
     Range,
@@ -57,6 +60,7 @@ pub(super) enum ValueForm {
     Number(&'static str),
     Name,
     Start,
+    Problem,
 }
 
 impl ValueForm {
@@ -66,6 +70,7 @@ impl ValueForm {
             ValueForm::Number(_) => "Values([...]), Steps(FROM, TO, COUNT), Uniform(FROM, TO) or Range(FROM, TO)",
             ValueForm::Name => "Names([...])",
             ValueForm::Start => "Starts([[...], [...]])",
+            ValueForm::Problem => "Problems(\"FILE.scen\")",
         }
     }
 }
@@ -79,16 +84,20 @@ pub(super) struct Sources {
     pub warehouse: bool,
     /// A planner.
     pub planner: bool,
+    /// A goal.
+    pub goal: bool,
 }
 
 /// The parameters of a run by name.
-const OF_RUN: [(&str, RunParameter, ValueForm); 11] = [
+const OF_RUN: [(&str, RunParameter, ValueForm); 13] = [
     ("seed", RunParameter::Seed, ValueForm::Whole("")),
     ("ticks", RunParameter::Ticks, ValueForm::Whole("ticks")),
     ("script", RunParameter::Script, ValueForm::Name),
     ("planner", RunParameter::Planner, ValueForm::Name),
     ("planner.iterations", RunParameter::PlannerIterations, ValueForm::Whole("")),
     ("planner.tube", RunParameter::PlannerTube, ValueForm::Number("m")),
+    ("planner.clearance", RunParameter::PlannerClearance, ValueForm::Number("m")),
+    ("problem", RunParameter::Problem, ValueForm::Problem),
     ("world", RunParameter::World, ValueForm::Name),
     ("sensor.rays", RunParameter::Rays, ValueForm::Whole("")),
     ("sensor.range", RunParameter::Range, ValueForm::Number("m")),
@@ -165,7 +174,7 @@ impl Parameter {
 
     /// Why it changes nothing in any run with these robots; `None` where it may.
     pub fn idle(&self, robots: &[&Resident], there: Sources) -> Option<String> {
-        use RunParameter::{Planner, PlannerIterations, PlannerTube};
+        use RunParameter::{Planner, PlannerClearance, PlannerIterations, PlannerTube};
         let no_sensor = || "the study has no range sensor for the run".to_owned();
         match self {
             Parameter::Run(RunParameter::Rays | RunParameter::Range) if !there.sensor => Some(no_sensor()),
@@ -176,8 +185,11 @@ impl Parameter {
             Parameter::Run(RunParameter::WarehouseSeed | RunParameter::WarehouseRobots) => {
                 (!there.warehouse).then(|| "the study has no warehouse".to_owned())
             }
-            Parameter::Run(Planner | PlannerIterations | PlannerTube) => {
+            Parameter::Run(Planner | PlannerIterations | PlannerTube | PlannerClearance) => {
                 (!there.planner).then(|| "the study has no planner".to_owned())
+            }
+            Parameter::Run(RunParameter::Problem) if !there.goal => {
+                Some("the study has no goal, which says whose problems they are".to_owned())
             }
             Parameter::Run(RunParameter::Script) if there.planner => Some("the planner makes the script".to_owned()),
             Parameter::Run(_) => None,
@@ -274,7 +286,7 @@ impl RobotParameter {
         let number = match value {
             AxisValue::Number(x) => *x,
             AxisValue::Whole(n) => *n as f64,
-            AxisValue::Start(_) | AxisValue::Name(_) => 0.0,
+            AxisValue::Start(_) | AxisValue::Name(_) | AxisValue::Problem(_) => 0.0,
         };
         match self {
             RobotParameter::Start => {

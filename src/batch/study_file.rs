@@ -1,4 +1,4 @@
-//! `StudyFile`, a study as written: it names worlds and scripts and does not hold them.
+//! `StudyFile`, a study as written: it names worlds, scripts and scenarios and does not hold them.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,6 +11,7 @@ use super::study_text::{Bundle, FORMAT, StudyItem, StudyText};
 use super::values::Over;
 use motion_lab_core::text_position::{Position, offset_of, position_at};
 use motion_lab_core::worlds::{World, ron_in_words};
+use motion_lab_import::Scenario;
 use motion_lab_sim::run::Script;
 
 /// The version alone, for files of other versions.
@@ -42,12 +43,14 @@ struct RawStudy<'a> {
     axes: Vec<&'a RawValue>,
 }
 
-/// A study file as written. It names its worlds and scripts; [`with`](Self::with) adds them.
+/// A study file as written. It names its worlds, scripts and scenarios, which [`with_scenarios`](Self::with_scenarios)
+/// and [`with`](Self::with) add.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StudyFile {
     file: String,
     source: String,
     text: StudyText,
+    scenarios: BTreeMap<String, Scenario>,
 }
 
 /// The RON options of studies: an optional value is written plainly, as in `ticks: 100`.
@@ -84,7 +87,7 @@ impl StudyFile {
         if read.worlds.is_empty() && read.warehouse.is_none() {
             read.worlds = World::built_in_names().into_iter().map(str::to_owned).collect();
         }
-        Ok(StudyFile { file: file.to_owned(), source: text.to_owned(), text: read })
+        Ok(StudyFile { file: file.to_owned(), source: text.to_owned(), text: read, scenarios: BTreeMap::new() })
     }
 
     fn named(&self, parameter: &str) -> impl Iterator<Item = &str> {
@@ -112,7 +115,22 @@ impl StudyFile {
         alone.chain(self.named("planner")).collect()
     }
 
-    /// Where the study names this world, script or planner, as messages have it: `study.ron:3:14`.
+    /// The names of its scenarios: paths relative to the study's folder. Each once.
+    pub fn scenario_names(&self) -> BTreeSet<&str> {
+        let named = self.text.axes.iter().filter_map(|axis| match &axis.over {
+            Over::Problems(name) => Some(name.as_str()),
+            _ => None,
+        });
+        named.collect()
+    }
+
+    /// The same study with the scenarios it names.
+    #[must_use]
+    pub fn with_scenarios(self, scenarios: BTreeMap<String, Scenario>) -> Self {
+        StudyFile { scenarios, ..self }
+    }
+
+    /// Where the study names this world, script, planner or scenario, as messages have it: `study.ron:3:14`.
     pub fn place_of(&self, name: &str) -> String {
         let places: Option<RawStudy> = options().from_str(&self.source).ok();
         let offset = places.and_then(|places| {
@@ -145,6 +163,7 @@ impl StudyFile {
             study: self.text.clone(),
             worlds: worlds.iter().map(|(name, world)| (name.clone(), world.to_ron())).collect(),
             scripts: scripts.iter().map(|(name, script)| (name.clone(), script.to_ron())).collect(),
+            scenarios: self.scenarios.iter().map(|(name, scenario)| (name.clone(), scenario.to_text())).collect(),
         };
         let study = Study::of_bundle(bundle);
         let study =

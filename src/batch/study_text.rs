@@ -65,6 +65,13 @@ pub(super) struct PlannerText {
     /// How much larger a rover is planned, metres.
     #[serde(default = "two_centimetres")]
     pub tube: f64,
+    /// The clearance that the path is to keep, metres; no field of the line where it is 0.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub clearance: f64,
+}
+
+fn is_zero(x: &f64) -> bool {
+    *x == 0.0
 }
 
 fn two_centimetres() -> f64 {
@@ -138,7 +145,7 @@ pub(super) enum StudyItem {
 /// What a bundle begins with.
 pub(super) const FORMAT: &str = "motion-lab sweep 1";
 
-/// A study with the canonical texts of its worlds and scripts, by the names it gives them.
+/// A study with the canonical texts of its worlds, scripts and scenarios, by the names it gives them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Bundle {
@@ -147,6 +154,9 @@ pub(super) struct Bundle {
     pub study: StudyText,
     pub worlds: BTreeMap<String, String>,
     pub scripts: BTreeMap<String, String>,
+    /// The scenarios of its problems, a field of the line only where there are some.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub scenarios: BTreeMap<String, String>,
 }
 
 /// The digest of a bundle's line: equal digests mean equal sweeps.

@@ -1,8 +1,11 @@
 //! The values of an axis, as a study writes them and as a run gets them.
 
 use std::fmt;
+use std::sync::Arc;
 
 use motion_lab_core::configuration::WrittenCoordinate;
+use motion_lab_core::geometry::{Aabb, Point2};
+use motion_lab_import::{Scenario, ScenarioProblem};
 use serde::de::{Deserializer, Error, IntoDeserializer, Visitor};
 use serde::{Deserialize, Serialize, Serializer};
 
@@ -104,6 +107,8 @@ pub(super) enum Over {
     /// Names: built-in worlds, or files.
     Names(Vec<String>),
     Starts(Vec<Vec<WrittenCoordinate>>),
+    /// The problems of a scenario's file, relative to the study's folder.
+    Problems(String),
 }
 
 /// The value of an axis in a row.
@@ -115,13 +120,47 @@ pub(super) enum AxisValue {
     Name(String),
     /// The coordinates of a configuration.
     Start(Vec<f64>),
+    Problem(NumberedProblem),
+}
+
+/// A problem of a scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct NumberedProblem {
+    /// The scenario's name in the study.
+    pub file: String,
+    /// Its number in the file, from 1.
+    pub number: u64,
+    pub scenario: Arc<Scenario>,
+    pub problem: ScenarioProblem,
+}
+
+/// A problem in a world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct PlacedProblem {
+    pub start: Point2,
+    pub goal: Point2,
+    /// The length that the file says is the shortest, metres.
+    pub optimal: f64,
+}
+
+impl NumberedProblem {
+    /// Where it lies in a world of these bounds, which the scenario's map fills; else the reason against it.
+    pub fn placed(&self, bounds: &Aabb) -> Result<PlacedProblem, String> {
+        let NumberedProblem { file, scenario, problem, .. } = self;
+        let scale = scenario.metres_per_cell(file, bounds).map_err(|error| error.to_string())?;
+        let [start, goal] = [problem.start, problem.goal].map(|cell| {
+            let middle = scenario.pose(cell, scale);
+            Point2::new(bounds.min.x + middle.x, bounds.min.y + middle.y)
+        });
+        Ok(PlacedProblem { start, goal, optimal: problem.length * scale })
+    }
 }
 
 impl Over {
     /// The numbers that are written, but those of starts.
     pub fn written(&self) -> Vec<WrittenNumber> {
         match self {
-            Over::Range(..) | Over::Names(_) | Over::Starts(_) => Vec::new(),
+            Over::Range(..) | Over::Names(_) | Over::Starts(_) | Over::Problems(_) => Vec::new(),
             Over::Values(values) => values.clone(),
             Over::Steps(from, to, _) | Over::Uniform(from, to) => vec![*from, *to],
         }
@@ -142,16 +181,17 @@ impl Over {
             Over::Values(_) | Over::Steps(..) | Over::Uniform(..) => "numbers",
             Over::Names(_) => "names",
             Over::Starts(_) => "start configurations",
+            Over::Problems(_) => "problems",
         }
     }
 
-    /// The number of values; `None` for a range without steps.
+    /// The number of values; `None` for a range without steps, and for problems, which stand in their file.
     pub fn len(&self) -> Option<u64> {
         match self {
             Over::Range(from, to) => Some(to.saturating_sub(*from)),
             Over::Values(values) => Some(values.len() as u64),
             Over::Steps(_, _, count) => Some(*count),
-            Over::Uniform(..) => None,
+            Over::Uniform(..) | Over::Problems(_) => None,
             Over::Names(names) => Some(names.len() as u64),
             Over::Starts(starts) => Some(starts.len() as u64),
         }

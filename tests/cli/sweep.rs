@@ -2,6 +2,7 @@
 
 mod care;
 mod planner;
+mod problems;
 mod trust;
 
 use std::fs;

@@ -1,6 +1,6 @@
 //! Maps and scenarios of the MovingAI benchmarks.
 
-use motion_lab_core::geometry::{Point2, Pose2};
+use motion_lab_core::geometry::{Aabb, Point2, Pose2};
 use motion_lab_import::{CellStyle, MapCell, Scenario, movingai};
 
 use crate::{assert_prints_as_itself, corners, is_hit, sample};
@@ -90,8 +90,8 @@ fn a_scenario_puts_starts_and_goals_into_the_middles_of_their_cells() {
     assert_eq!((scenario.map.as_str(), scenario.width, scenario.height), ("yard.map", 10, 6));
     let second = &scenario.problems[1];
     assert_eq!(
-        (second.line, second.start, second.goal, second.length),
-        (3, MapCell { x: 5, y: 2 }, MapCell { x: 1, y: 4 }, 5.5)
+        (second.line, second.bucket, second.start, second.goal, second.length),
+        (3, 1, MapCell { x: 5, y: 2 }, MapCell { x: 1, y: 4 }, 5.5)
     );
     let map = movingai("yard.map", &sample("yard.map"), 2.0).unwrap();
     let mut yard = map.world("yard.map", "yard", CellStyle::Solid).unwrap();
@@ -113,6 +113,27 @@ fn a_scenario_puts_starts_and_goals_into_the_middles_of_their_cells() {
     }
     let error = scenario.put_places("s.scen", [10, 7], 2.0, &mut yard).unwrap_err().to_string();
     assert_eq!(error, "s.scen: 10 x 6 cells: the map has 10 x 7");
+}
+
+#[test]
+fn the_worlds_bounds_say_how_large_a_cell_is() {
+    let scenario = Scenario::parse("s.scen", PROBLEMS).unwrap();
+    for scale in [0.25, 0.1, 1.0, 3.7] {
+        let map = movingai("yard.map", &sample("yard.map"), scale).unwrap();
+        let bounds = map.world("yard.map", "yard", CellStyle::Solid).unwrap().world.bounds;
+        let found = scenario.metres_per_cell("s.scen", &bounds).unwrap();
+        assert!((found - scale).abs() < 1e-15, "{found}");
+    }
+    let other = Aabb::new(Point2::new(1.0, 1.0), Point2::new(11.0, 8.0));
+    let error = scenario.metres_per_cell("s.scen", &other).unwrap_err().to_string();
+    assert_eq!(error, "s.scen: 10 x 6 cells do not fill the world's bounds, 10 x 7 m");
+}
+
+#[test]
+fn a_scenario_prints_as_itself() {
+    let scenario = Scenario::parse("s.scen", PROBLEMS).unwrap();
+    assert_eq!(scenario.to_text(), PROBLEMS);
+    assert_eq!(Scenario::parse("s.scen", &scenario.to_text()).unwrap(), scenario);
 }
 
 #[test]
@@ -139,6 +160,7 @@ fn scenarios_are_read_in_their_several_forms_and_refused_by_line() {
         "s.scen:2: goal: cell (10, 4) of 10 x 6: it must be on the map; x and y count from 0"
     );
     assert_eq!(refused("\t1\t1", "\t1\t-1"), "s.scen:2: start y: -1: it must be a whole number");
+    assert_eq!(refused("\n1\tyard", "\nfirst\tyard"), "s.scen:3: bucket: first: it must be a whole number");
     assert_eq!(refused("5.5", "far"), "s.scen:3: length: far: it must be a finite number from 0 on");
     assert!(refused("1\tyard.map", "1\tother.map").starts_with("s.scen:3: map: not supported: other.map"));
     assert_eq!(Scenario::parse("s.scen", "version 1\n").unwrap_err().to_string(), "s.scen: `a problem` is missing");

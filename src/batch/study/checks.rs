@@ -1,9 +1,10 @@
 //! What is checked when a study is made: its robots, its goal, its planner and its axes.
 
-use crate::batch::axis::CheckedAxis;
+use super::problems::unsuited;
+use crate::batch::axis::{CheckedAxis, Scenarios};
 use crate::batch::columns::{MAX_ROBOT_COLUMNS, RobotColumns};
 use crate::batch::error::SweepProblem;
-use crate::batch::parameter::{Parameter, RobotParameter, Sources};
+use crate::batch::parameter::{Parameter, RobotParameter, RunParameter, Sources};
 use crate::batch::study_text::{GoalText, StudyItem, StudyText};
 use crate::batch::values::Over;
 use motion_lab_core::configuration::{RobotKind, Sizes, WrittenCoordinate};
@@ -48,6 +49,10 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
     if let Some(wrong) = within.iter().find(|tolerance| **tolerance < 0.0) {
         return Err((StudyItem::Goal, SweepProblem::Tolerance(*wrong)));
     }
+    if study.axes.iter().any(|axis| matches!(axis.over, Over::Problems(_))) {
+        // each row has a goal of its own
+        return Ok(());
+    }
     check_goal_somewhere(robot, at, worlds).map_err(|problem| (StudyItem::Goal, problem))
 }
 
@@ -90,23 +95,34 @@ pub fn planned_unit(study: &StudyText, worlds: &[&World]) -> Option<&'static str
 }
 
 /// The axes, each of which varies something.
-pub fn make_axes(study: &StudyText, worlds: &[&World]) -> Result<Vec<CheckedAxis>, (StudyItem, SweepProblem)> {
+pub fn make_axes(
+    study: &StudyText,
+    worlds: &[&World],
+    scenarios: &Scenarios,
+) -> Result<Vec<CheckedAxis>, (StudyItem, SweepProblem)> {
     let mut axes: Vec<CheckedAxis> = Vec::with_capacity(study.axes.len());
     let robots: Vec<&Resident> =
         worlds.iter().flat_map(|world| &world.robots).filter(|robot| study.keeps(&robot.name)).collect();
-    let there =
-        Sources { sensor: !study.no_sensor, warehouse: study.warehouse.is_some(), planner: study.planner.is_some() };
+    let there = Sources {
+        sensor: !study.no_sensor,
+        warehouse: study.warehouse.is_some(),
+        planner: study.planner.is_some(),
+        goal: study.goal.is_some(),
+    };
     for (i, text) in study.axes.iter().enumerate() {
         let refused = |problem| (StudyItem::Axis(i), problem);
         let parameter = Parameter::named(&text.vary, worlds).map_err(|there| {
             let meant = Parameter::meant(&text.vary, worlds);
             refused(SweepProblem::Parameter(there + &hint(meant.as_deref())))
         })?;
-        if let Some(before) = axes.iter().position(|axis| axis.parameter.overlaps(&parameter)) {
+        if let Some(before) = axes.iter().position(|axis| overlap(study.goal.as_ref(), &axis.parameter, &parameter)) {
             return Err(refused(SweepProblem::Twice(before)));
         }
-        let axis = CheckedAxis::try_new(parameter, text.over.clone()).map_err(refused)?;
-        if let Some(reason) = axis.parameter.idle(&robots, there) {
+        let axis = CheckedAxis::try_new(parameter, text.over.clone(), scenarios).map_err(refused)?;
+        let goals = robots.iter().find(|known| study.goal.as_ref().is_some_and(|goal| goal.robot == known.name));
+        let is_problem = axis.parameter == Parameter::Run(RunParameter::Problem);
+        let unsuited = goals.filter(|_| is_problem).and_then(|resident| unsuited(&resident.kind));
+        if let Some(reason) = axis.parameter.idle(&robots, there).or(unsuited) {
             return Err(refused(SweepProblem::Idle(reason)));
         }
         if let (Parameter::Robot { robot, of: RobotParameter::Start, .. }, Over::Starts(starts)) =
@@ -117,6 +133,17 @@ pub fn make_axes(study: &StudyText, worlds: &[&World]) -> Result<Vec<CheckedAxis
         axes.push(axis);
     }
     Ok(axes)
+}
+
+/// Whether two parameters vary the same, wholly or in part. A problem is also where the goal's robot starts.
+fn overlap(goal: Option<&GoalText>, a: &Parameter, b: &Parameter) -> bool {
+    use RobotParameter::{Coordinate, Start};
+    let is_start = |of: &Parameter| match of {
+        Parameter::Robot { robot, of: Start | Coordinate(0 | 1), .. } => goal.is_some_and(|goal| goal.robot == *robot),
+        _ => false,
+    };
+    let is_problem = |of: &Parameter| *of == Parameter::Run(RunParameter::Problem);
+    a.overlaps(b) || (is_problem(a) && is_start(b)) || (is_start(a) && is_problem(b))
 }
 
 /// Checks that each start has the number of coordinates of some robot of this name.

@@ -7,6 +7,7 @@ use crate::batch::values::AxisValue;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::{Resident, Warehouse, World};
+use motion_lab_sim::plans::MAX_CLEARANCE;
 use motion_lab_sim::tour::BOOK_SEED;
 
 /// What the parameters of a whole run change.
@@ -69,6 +70,9 @@ impl RunDraft {
             (RunParameter::PlannerTube, AxisValue::Number(x)) => {
                 self.planner.as_mut().ok_or_else(no_planner)?.tube = *x;
             }
+            (RunParameter::PlannerClearance, AxisValue::Number(x)) => {
+                self.planner.as_mut().ok_or_else(no_planner)?.clearance = *x;
+            }
             // an axis has only values of its parameter's form
             _ => {}
         }
@@ -79,7 +83,7 @@ impl RunDraft {
 impl PlannerText {
     /// The planning of a run in these worlds, in which the goal's robot is alone.
     pub fn planning(&self, goal: Option<&GoalText>, worlds: &[World]) -> Result<Planning, String> {
-        let PlannerText { name, iterations, tube } = self;
+        let PlannerText { name, iterations, tube, clearance } = self;
         let goal = goal.ok_or("a planner needs a goal")?;
         let robot = &goal.robot;
         let residents: Vec<&Resident> = worlds.iter().flat_map(|world| &world.robots).collect();
@@ -92,7 +96,10 @@ impl PlannerText {
         if !(0.0..=1.0).contains(tube) {
             return Err(format!("planner.tube: {tube} m: it must be from 0 to 1 m"));
         }
-        Ok(Planning { planner: name.clone(), goal, iterations: *iterations, tube: *tube })
+        if !(0.0..=MAX_CLEARANCE).contains(clearance) {
+            return Err(format!("planner.clearance: {clearance} m: it must be from 0 to {MAX_CLEARANCE} m"));
+        }
+        Ok(Planning { planner: name.clone(), goal, iterations: *iterations, tube: *tube, clearance: *clearance })
     }
 }
 

@@ -2,10 +2,12 @@
 
 mod checks;
 mod draft;
+mod problems;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use super::axis::CheckedAxis;
+use super::axis::{CheckedAxis, Scenarios};
 use super::columns::{Column, RobotColumns, columns, heading, table_heading};
 use super::error::{PLAN_VERSION, SweepProblem};
 use super::parameter::{Parameter, RobotParameter, RunParameter};
@@ -19,6 +21,7 @@ use motion_lab_core::configuration::{Kinds, RobotKind, WrittenCoordinate};
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::{OutsideError, World};
+use motion_lab_import::Scenario;
 use motion_lab_sim::run::{Digest, Script};
 use motion_lab_sim::tour::TourConfig;
 
@@ -97,6 +100,11 @@ impl Study {
         for (name, text) in &bundle.scripts {
             scripts.insert(name.clone(), Script::parse(name, text).map_err(|error| whole(error.to_string()))?);
         }
+        let mut scenarios = Scenarios::new();
+        for (name, text) in &bundle.scenarios {
+            let scenario = Scenario::parse(name, text).map_err(|error| whole(error.to_string()))?;
+            scenarios.insert(name.clone(), Arc::new(scenario));
+        }
         if let Some(sensor) = bundle.study.sensor {
             RangeSensor::try_new(sensor.rays, sensor.range).map_err(|error| whole(error.to_string()))?;
         }
@@ -107,7 +115,7 @@ impl Study {
         let there: Vec<&World> = worlds.values().chain(&yard).collect();
         check_robots(&bundle.study, &there)?;
         check_planner(&bundle.study)?;
-        let axes = make_axes(&bundle.study, &there)?;
+        let axes = make_axes(&bundle.study, &there, &scenarios)?;
         let runs = bundle.study.points.count(&axes).map_err(|(axis, problem)| {
             let item = axis.map_or(StudyItem::Points, StudyItem::Axis);
             (item, problem)
@@ -203,6 +211,14 @@ impl Study {
                 of.apply(resident, value).map_err(|reason| format!("{}: {reason}", axis.parameter.name()))?;
             }
         }
+        let goal = match self.goal() {
+            Some(goal) => {
+                let problem = problems::placed(goal, &values, &worlds)?;
+                problems::start_at(goal, problem, &mut worlds);
+                Some(problems::goal_at(goal, problem))
+            }
+            None => None,
+        };
         for resident in worlds.iter_mut().flat_map(|world| &mut world.robots) {
             let Some(reason) = check(&resident.kind, resident.sizes.as_ref(), resident.sensor) else { continue };
             return Err(format!("{}: {reason}", resident.name));
@@ -211,9 +227,11 @@ impl Study {
             let refused = |(i, reason): (usize, OutsideError)| format!("{}: {reason}", world.robots[i].name);
             world.check_residents().map_err(refused)?;
         }
-        self.check_goal_everywhere(&worlds)?;
+        if let Some(goal) = &goal {
+            check_goal_everywhere(goal, &worlds)?;
+        }
         let inputs = match (&draft.planner, &draft.script) {
-            (Some(planner), _) => RunInputs::Planner(planner.planning(self.goal(), &worlds)?),
+            (Some(planner), _) => RunInputs::Planner(planner.planning(goal.as_ref(), &worlds)?),
             (None, None) => RunInputs::Script(Script::empty()),
             (None, Some(name)) => {
                 let script = self.scripts.get(name).ok_or_else(|| format!("there is no script {name:?}"))?;
@@ -225,10 +243,12 @@ impl Study {
         Ok(RunSetup { seed: Seed(draft.seed), config, inputs })
     }
 
-    /// Checks that the goal lies within every world of its robot.
-    fn check_goal_everywhere(&self, worlds: &[World]) -> Result<(), String> {
-        let Some(goal @ GoalText { robot, .. }) = self.goal() else { return Ok(()) };
-        goal_checks(robot, &goal.at(), worlds).collect::<Result<(), _>>().map_err(|reason| format!("{robot}: {reason}"))
+    /// The goal of a row's run in its worlds.
+    pub(super) fn goal_of(&self, row: u64, worlds: &[World]) -> Option<GoalText> {
+        let goal = self.goal()?;
+        // where the map is another the run could not be
+        let problem = problems::placed(goal, &self.values(row), worlds).ok().flatten();
+        Some(problems::goal_at(goal, problem))
     }
 
     /// Checks that there is a run that can be, in studies of at most [`MAX_TRIED`] runs.
@@ -250,17 +270,25 @@ impl Study {
     pub fn parameters(&self, row: u64) -> Vec<RowValue> {
         let values = self.values(row);
         let mut draft = RunDraft::of(&self.text);
+        for (axis, value) in self.axes.iter().zip(&values) {
+            if let Parameter::Run(of @ (RunParameter::Seed | RunParameter::Ticks | RunParameter::World)) =
+                axis.parameter
+            {
+                // the first two take every whole number, the third every name
+                let _ = draft.set(of, value);
+            }
+        }
+        let worlds: Vec<&World> = draft.worlds.iter().filter_map(|name| self.worlds.get(name)).collect();
         let mut cells = Vec::new();
         for (axis, value) in self.axes.iter().zip(values) {
-            if let Parameter::Run(of @ (RunParameter::Seed | RunParameter::Ticks)) = axis.parameter {
-                // these two take every whole number
-                let _ = draft.set(of, &value);
+            if matches!(axis.parameter, Parameter::Run(RunParameter::Seed | RunParameter::Ticks)) {
                 continue;
             }
             match value {
                 AxisValue::Whole(n) => cells.push(RowValue::Whole(n)),
                 AxisValue::Number(x) => cells.push(RowValue::Number(x)),
                 AxisValue::Name(name) => cells.push(RowValue::text(name)),
+                AxisValue::Problem(problem) => cells.extend(problems::cells(&problem, self.goal(), &worlds)),
                 AxisValue::Start(start) => {
                     let width = match &axis.parameter {
                         Parameter::Robot { kind, of: RobotParameter::Start, .. } => RobotKind::of(kind),
@@ -311,4 +339,10 @@ impl Study {
         }
         row
     }
+}
+
+/// Checks that the goal lies within every world of its robot.
+fn check_goal_everywhere(goal: &GoalText, worlds: &[World]) -> Result<(), String> {
+    let robot = &goal.robot;
+    goal_checks(robot, &goal.at(), worlds).collect::<Result<(), _>>().map_err(|reason| format!("{robot}: {reason}"))
 }

@@ -1,11 +1,13 @@
 //! Plans, points, rows and parts.
 
 mod files;
+mod problems;
 mod rows;
 mod studies;
 
 use super::*;
 use motion_lab_core::worlds::World;
+use motion_lab_import::Scenario;
 use motion_lab_sim::run::{Event, RobotInput, Script};
 
 fn try_plan(text: &str) -> Result<Study, StudyError> {
@@ -19,4 +21,49 @@ fn try_plan(text: &str) -> Result<Study, StudyError> {
 
 fn study(text: &str) -> Study {
     try_plan(text).unwrap()
+}
+
+/// A yard of 8 x 4 cells of half a metre, whose lower left corner is (1, 2), and of another one of 2 m at the origin.
+fn yard(corner: [f64; 2], size: [f64; 2]) -> World {
+    let [x, y] = corner;
+    let text = format!(
+        "World(version: 1, name: \"yard\", bounds: (min: ({x}, {y}), max: ({}, {})), obstacles: [], robots: [\
+         (name: \"Rusty\", kind: \"rusty\", start: [{}, {}, 0.5]), \
+         (name: \"Reach\", kind: \"reach\", start: [0.1, 0.1], \
+         arm: (base: ({}, {}), lengths: [0.4, 0.4], radius: 0.03))])",
+        x + size[0],
+        y + size[1],
+        x + 1.0,
+        y + 1.0,
+        x + 1.0,
+        y + 1.0
+    );
+    World::parse("yard.ron", &text).unwrap()
+}
+
+const SCENARIO: &str = "version 1\n0\ty.map\t8\t4\t0\t0\t7\t3\t8.24264069\n3\ty.map\t8\t4\t5\t2\t1\t3\t4.5\n";
+
+/// A study of the problems of a scenario.
+fn try_problems(more: &str, axes: &str) -> Result<Study, StudyError> {
+    let text = format!(
+        "Sweep(version: 1, worlds: [\"half.ron\"], ticks: 2, {more}
+         axes: [{axes}(vary: \"problem\", over: Problems(\"y.map.scen\"))])"
+    );
+    let file = StudyFile::parse("study.ron", &text)?;
+    assert_eq!(file.scenario_names().into_iter().collect::<Vec<_>>(), ["y.map.scen"]);
+    let worlds = [
+        ("half.ron".to_owned(), yard([1.0, 2.0], [4.0, 2.0])),
+        ("two.ron".to_owned(), yard([0.0, 0.0], [16.0, 8.0])),
+        ("other.ron".to_owned(), yard([0.0, 0.0], [8.0, 5.0])),
+    ];
+    let scenario = Scenario::parse("y.map.scen", SCENARIO).unwrap();
+    file.with_scenarios([("y.map.scen".to_owned(), scenario)].into()).with(&worlds.into(), &[].into())
+}
+
+const GOAL: &str =
+    "robots: [\"Rusty\"], planner: (), goal: (robot: \"Rusty\", at: [0, 0, 1.5], within: [0.1, 0.1, 4]),";
+
+/// A study of two problems, of Rusty.
+fn of_problems() -> Result<Study, StudyError> {
+    try_problems(GOAL, "")
 }

@@ -8,7 +8,7 @@ use motion_lab_sim::recording::Recorder;
 use motion_lab_sim::run::{Recipe, RunDigest};
 
 /// The run of a row, as the command makes it.
-fn run(study: &Study, row: u64) -> RunRow {
+pub fn run(study: &Study, row: u64) -> RunRow {
     let setup = match study.setup(row) {
         Ok(setup) => setup,
         Err(reason) => return study.failed(row, &reason),
@@ -27,7 +27,7 @@ fn run(study: &Study, row: u64) -> RunRow {
     gatherer.row(run.frame(), digest.digest(), run.refusals())
 }
 
-fn cell(study: &Study, row: &RunRow, name: &str) -> RowValue {
+pub fn cell(study: &Study, row: &RunRow, name: &str) -> RowValue {
     row.cell(study.columns(), name).unwrap_or_else(|| panic!("{name}: {}", study.heading())).clone()
 }
 
@@ -162,7 +162,8 @@ fn the_docs_list_every_column_with_its_unit_and_kind() {
         CellKind::Number => "number",
         CellKind::Text => "text",
     };
-    let columns = studies.iter().flat_map(Study::columns);
+    let of_problems = super::of_problems().unwrap();
+    let columns = studies.iter().chain([&of_problems]).flat_map(Study::columns);
     let mut written: BTreeSet<_> =
         columns.map(|column| (general(&column.name), column.unit.as_str(), kind(column.kind))).collect();
     // the built-in worlds have no arm of three links
@@ -177,7 +178,13 @@ fn what_came_of_planning_stands_before_the_digest() {
                 axes: [(vary: \"planner\", over: Names([\"rrt\", \"prm\"])), (vary: \"planner.tube\", over: Values([0, 2]))])";
     let study = study(text);
     let planning = |row| study.setup(row).map(|setup| setup.inputs);
-    let expected = Planning { planner: Some("prm".into()), goal: vec![4.5, 2.0, 1.0], iterations: Some(7), tube: 0.0 };
+    let expected = Planning {
+        planner: Some("prm".into()),
+        goal: vec![4.5, 2.0, 1.0],
+        iterations: Some(7),
+        tube: 0.0,
+        clearance: 0.0,
+    };
     assert_eq!(planning(2), Ok(RunInputs::Planner(expected)));
     assert_eq!(planning(1), Err("planner.tube: 2 m: it must be from 0 to 1 m".into()));
     let path = PlannedPath { length: 4.5, clearance: f64::INFINITY, time: Some(8.05) };

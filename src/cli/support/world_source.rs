@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use motion_lab::names::did_you_mean;
+use motion_lab::worlds::import::Scenario;
 use motion_lab::worlds::{World, turns};
 
 use super::console::note;
-use super::input::{MAX_WORLD, is_dash, read_text_of, shown};
+use super::input::{MAX_TEXT, MAX_WORLD, is_dash, read_text_of, shown};
 use crate::cli::Failure;
 
 /// The world that `name` names: the built-in one of that name, else the file at that path.
@@ -43,6 +44,13 @@ pub fn read_world(path: &Path) -> Result<World, Failure> {
     World::parse(&shown(path), &text).map_err(|error| {
         Failure::input(error, "Correct it there. `motion-lab world show apartment` prints a world file to go by.")
     })
+}
+
+/// The scenario in a file: problems on a map of the MovingAI benchmarks.
+pub fn read_scenario(path: &Path) -> Result<Scenario, Failure> {
+    let text = read_text_of(path, MAX_TEXT)?;
+    let next = "Correct it there. `motion-lab world import` makes the world of its map.";
+    Scenario::parse(&shown(path), &text).map_err(|error| Failure::input(error, next))
 }
 
 /// The names of the built-in worlds, for messages.

@@ -7,13 +7,14 @@ use std::path::Path;
 use crate::cli::{Run, command, ended, run, run_in, run_with};
 
 /// Options and arguments that name files to read.
-const READ: [&str; 9] = [
+const READ: [&str; 10] = [
     "record --world",
     "record --script",
     "record --resume",
     "query --world",
     "query --input",
     "plan --world",
+    "plan --problems",
     "capture --world",
     "capture --run",
     "script convert --world",
@@ -61,7 +62,10 @@ const WRITTEN: [(&str, &[(&str, &str)]); 21] = [
     ("plan --gif", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --gif OUT", "wb.ron")]),
     (
         "plan --csv",
-        &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --compare rrt --seeds 0..1 --csv OUT", "wb.ron")],
+        &[
+            ("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --compare rrt --seeds 0..1 --csv OUT", "wb.ron"),
+            ("plan --world lot --robot Hitch --problems IN --compare rrt --iterations 1 --csv OUT", "lot.map.scen"),
+        ],
     ),
     ("world show --output", &[("world show IN -o OUT", "wb.ron")]),
     ("world import --output", &[("world import IN -o OUT", "map.yaml")]),
@@ -100,6 +104,7 @@ pub fn folder() -> tempfile::TempDir {
     run_in(at, &["record", "--ticks", "8", "-o", "run.mcap"]).done();
     run_in(at, &["world", "show", "workbench", "-o", "wb.ron"]).done();
     run_in(at, &["world", "export", "lot", "--resolution", "0.5", "-o", "map.yaml"]).done();
+    fs::write(at.join("lot.map.scen"), "0 lot.map 16 10 6 6 7 6 1\n").unwrap();
     fs::write(at.join("table.csv"), "tick,robot,input\n1,Hitch,Drive,1,0\n").unwrap();
     run_in(at, &["script", "convert", "table.csv", "-o", "drive.ron"]).done();
     fs::write(

@@ -3,5 +3,8 @@
 pub mod black_box;
 pub mod capture;
 pub mod certificates;
+pub mod clearance;
+pub mod comparisons;
+pub mod narrow_gap;
 pub mod plan;
 pub mod queries;

@@ -16,7 +16,7 @@ const PLAN: &str = "Sweep(version: 1, worlds: [\"workbench\"], ticks: 600, plann
     ])";
 
 /// The rows of a table, a cell by its column's name.
-fn rows(table: &str) -> Vec<impl Fn(&str) -> String> {
+pub fn rows(table: &str) -> Vec<impl Fn(&str) -> String> {
     let names: Vec<String> = table.lines().next().unwrap().split(',').map(str::to_owned).collect();
     let row = |line: &str| {
         // a comma between quotation marks belongs to its cell
@@ -135,6 +135,11 @@ fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
             ":1:1",
             "planner.tube: 2 m: it must be from 0 to 1 m",
         ),
+        (
+            &format!("planner: (clearance: -1), robots: [\"Rusty\"], {goal}"),
+            ":1:1",
+            "planner.clearance: -1 m: it must be from 0 to 100 m",
+        ),
     ] {
         let folder = folder_with(&format!("Sweep(version: 1,\n{study})"));
         fs::write(folder.path().join("s.ron"), "Script(version: 1, events: [])").unwrap();
@@ -149,6 +154,23 @@ fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
     run_in(folder.path(), &["sweep", "plan.ron", "-o", "parts"]).done();
     let part = fs::read_to_string(folder.path().join("parts/part-1-of-1.sweep")).unwrap();
     assert!(part.contains("it plans straight lines, which no car can drive"), "{part}");
+}
+
+#[test]
+fn rrt_star_shortens_its_path_up_to_the_iterations_of_its_row() {
+    let folder = folder_with(
+        "Sweep(version: 1, worlds: [\"apartment\"], robots: [\"Rusty\"], ticks: 1, planner: (name: \"rrt-star\"), \
+         goal: (robot: \"Rusty\", at: [9.75, 6.25, 0], within: [1, 1, 4]), \
+         axes: [(vary: \"planner.iterations\", over: Values([1500, 3000]))])",
+    );
+    let at = folder.path();
+    run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
+    run_in(at, &["sweep", "merge", "parts", "-o", "all.csv"]).done();
+    let table = fs::read_to_string(at.join("all.csv")).unwrap();
+    let rows = rows(&table);
+    let [few, many] = [0, 1].map(|i| (rows[i]("iterations"), rows[i]("planned_path_m").parse::<f64>().unwrap()));
+    assert_eq!((few.0.as_str(), many.0.as_str()), ("1500", "3000"));
+    assert!(many.1 < few.1, "{few:?} {many:?}");
 }
 
 #[cfg(unix)]

@@ -61,6 +61,18 @@ pub enum ProblemError {
         /// The name of the obstacle.
         obstacle: String,
     },
+    /// The start or the goal is free, and not as far from an obstacle as is to be kept.
+    #[error("the {end} has a clearance of {clearance} m from {obstacle}; it is to keep more than {kept} m")]
+    Clearance {
+        /// `start` or `goal`.
+        end: &'static str,
+        /// The name of the obstacle.
+        obstacle: String,
+        /// What it has, metres.
+        clearance: f64,
+        /// What is to be kept, metres.
+        kept: f64,
+    },
 }
 
 impl<R: Robot> Problem<R> {

@@ -11,7 +11,7 @@ use super::narrow::convex::NearestPoints;
 use super::narrow::distance::depth;
 use super::narrow::nearest::NearestSearch;
 use super::narrow::pair::{pair, touch};
-use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, largest_coordinate};
+use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, Vertices, largest_coordinate};
 use crate::num::greater;
 use crate::worlds::{Obstacle, World};
 
@@ -118,6 +118,19 @@ impl Scene {
     /// The Lot.
     pub fn lot() -> Self {
         Self::of_world(&World::lot())
+    }
+
+    /// The scene whose obstacles are larger by a distance all round, metres. What is free there has a clearance of more
+    /// than that here, but for the rounding of the radii. The bounds stay. An obstacle that was not valid still is not;
+    /// so is every obstacle where the distance is not finite, or less than the obstacle's radius.
+    #[must_use]
+    pub fn grown(&self, by: f64) -> Self {
+        let pieces = self
+            .pieces
+            .iter()
+            .map(|piece| Placed::new(Vertices::from_slice(piece.core()), piece.radius() + by))
+            .collect();
+        Self::of_pieces(self.bounds, self.names.clone(), pieces, self.owners.clone())
     }
 
     fn of_pieces(bounds: Aabb, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {

@@ -60,3 +60,4 @@ pub use sampling::{sample_near, sample_toward_goal};
 pub use search::Search;
 pub use sensed::{LeavePoint, RoundEnd, Sensed};
 pub use settings::SamplingSettings;
+pub use shortcut::MARGIN;

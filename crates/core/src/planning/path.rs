@@ -1,7 +1,9 @@
 //! `CertifiedPath`, a path with the certificate of its whole length, and `UnprovenPath`, which is only called free.
 
 use super::Metric;
-use crate::collision::{Certificate, CertificateError, Checker, Collision, EdgeVerdict, verify_certificate};
+use crate::collision::{
+    Certificate, CertificateError, Checker, Collision, EdgeVerdict, MarchOptions, march, verify_certificate,
+};
 use crate::configuration::{Chart, Configuration};
 use crate::num::lesser;
 use crate::robots::{ChartLine, ConfigurationError, Motion, Robot};
@@ -56,12 +58,15 @@ pub enum PathError {
     #[error("leg {0} does not begin where the one before ends")]
     Broken(usize),
     /// A leg that is not proven free.
-    #[error("leg {leg} is not proven free")]
+    #[error("{}", not_free(*leg, verdict, obstacle.as_deref()))]
     NotFree {
         /// The number of the leg, from 0.
         leg: usize,
-        /// What is known of it.
+        /// What is known of it: of one that hits, where and with which part.
         verdict: EdgeVerdict,
+        /// The name of the obstacle that it hits; `None` where it leaves the robot's own limits, and where nothing is
+        /// known to be hit.
+        obstacle: Option<String>,
     },
     /// A leg whose certificate the verifier refuses.
     #[error("leg {leg}: {source}")]
@@ -96,6 +101,15 @@ pub enum PathError {
     Missing,
 }
 
+/// What is known of a leg that is not proven free, in words.
+fn not_free(leg: usize, verdict: &EdgeVerdict, obstacle: Option<&str>) -> String {
+    match (verdict, obstacle) {
+        (EdgeVerdict::Hit { part, .. }, Some(name)) => format!("leg {leg} hits {name} with part {part}"),
+        (EdgeVerdict::Hit { part, .. }, None) => format!("leg {leg} leaves the robot's own limits with part {part}"),
+        _ => format!("leg {leg} is not proven free"),
+    }
+}
+
 impl<M: Motion> CertifiedPath<M> {
     /// The path of these motions, with a certificate for each.
     ///
@@ -105,15 +119,45 @@ impl<M: Motion> CertifiedPath<M> {
         checker: &Checker<R>,
         motions: impl IntoIterator<Item = M>,
     ) -> Result<Self, PathError> {
+        Self::proven_by(checker, motions, |motion, certificate| checker.motion_certified(motion, certificate))
+    }
+
+    /// The path of these motions, with certificates that prove a clearance above `margin` metres all along it.
+    ///
+    /// # Errors
+    /// [`PathError`]: no motion, motions that do not join, or one that is not proven to keep the margin: it hits what
+    /// it comes as near to.
+    pub fn try_keeping<R: Robot<Configuration = M::Configuration>>(
+        checker: &Checker<R>,
+        motions: impl IntoIterator<Item = M>,
+        margin: f64,
+    ) -> Result<Self, PathError> {
+        let options = MarchOptions { margin, ..MarchOptions::default() };
+        Self::proven_by(checker, motions, |motion, certificate| {
+            march(checker.scene(), motion, options, Some(certificate))
+        })
+    }
+
+    /// The path of these motions, each of which `prove` gives its certificate.
+    fn proven_by<R: Robot<Configuration = M::Configuration>>(
+        checker: &Checker<R>,
+        motions: impl IntoIterator<Item = M>,
+        prove: impl Fn(&M, &mut Certificate) -> EdgeVerdict,
+    ) -> Result<Self, PathError> {
         let mut legs: Vec<Leg<M>> = Vec::new();
         for (leg, motion) in motions.into_iter().enumerate() {
             if legs.last().is_some_and(|before| before.motion.at(1.0) != motion.at(0.0)) {
                 return Err(PathError::Broken(leg));
             }
             let mut certificate = Certificate::new();
-            let verdict = checker.motion_certified(&motion, &mut certificate);
+            let verdict = prove(&motion, &mut certificate);
             if !verdict.is_free() {
-                return Err(PathError::NotFree { leg, verdict });
+                let hit = match verdict {
+                    EdgeVerdict::Hit { by, .. } => by.obstacle(),
+                    _ => None,
+                };
+                let obstacle = hit.and_then(|id| checker.scene().obstacle_name(id)).map(str::to_owned);
+                return Err(PathError::NotFree { leg, verdict, obstacle });
             }
             legs.push(Leg { motion, certificate });
         }

@@ -1,12 +1,21 @@
-//! Shorter and smoother paths that keep their certificates.
+//! Shorter and smoother paths that keep their certificates, and a margin.
+
+use std::ops::RangeInclusive;
 
 use super::path::Leg;
-use super::{LinePath, Metric};
+use super::{LinePath, Metric, PathError};
 use crate::collision::Checker;
 use crate::configuration::Chart;
 use crate::num::lesser;
 use crate::random::Stream;
 use crate::robots::{ChartLine, Motion, Robot};
+
+/// The clearance that shortcuts keep wherever what they replace has as much, metres, and that a [`VisibilityGraph`]
+/// keeps about corners: far above the rounding of a clearance, so what is proven of a path is a number that a table
+/// shows. More is kept in a scene whose obstacles are [larger](crate::collision::Scene::grown).
+///
+/// [`VisibilityGraph`]: super::VisibilityGraph
+pub const MARGIN: f64 = 1e-3;
 
 /// How often the cut at a corner is halved before the corner stays.
 const HALVINGS: u32 = 4;
@@ -20,7 +29,7 @@ struct LegParameter {
 
 impl<R: Robot<Configuration: Chart>> LinePath<R> {
     /// The path without the corners that it can do without: a corner goes where the edge between its neighbours is
-    /// proven free and shorter. Never longer by the metric, and certified.
+    /// proven free and shorter. Never longer by the metric, and certified; it keeps the [`MARGIN`] where the path does.
     #[must_use]
     pub fn pruned(&self, checker: &Checker<R>, metric: &Metric) -> Self {
         let mut draft = PathDraft::of(self, checker, metric);
@@ -37,7 +46,7 @@ impl<R: Robot<Configuration: Chart>> LinePath<R> {
     }
 
     /// The path after this many tries to join two of its places, drawn uniformly along it, by a straight edge. Never
-    /// longer by the metric, and certified.
+    /// longer by the metric, and certified; it keeps the [`MARGIN`] where the path does.
     ///
     /// ```
     /// use motion_lab_core::planning::{Bounds, Metric, RrtConnect, solve};
@@ -63,7 +72,7 @@ impl<R: Robot<Configuration: Chart>> LinePath<R> {
     }
 
     /// The path with its corners cut, this many times over: each cut replaces a corner by two of wider angles. Never
-    /// longer by the metric, and certified.
+    /// longer by the metric, and certified; it keeps the [`MARGIN`] where the path does.
     #[must_use]
     pub fn smoothed(&self, checker: &Checker<R>, metric: &Metric, rounds: u32) -> Self {
         let mut draft = PathDraft::of(self, checker, metric);
@@ -128,13 +137,34 @@ impl<'a, R: Robot<Configuration: Chart>> PathDraft<'a, R> {
         if shorter >= present || !self.checker.edge_free(&self.at(from), &self.at(to)) {
             return false;
         }
-        match LinePath::through(self.checker, &corners) {
+        match self.through(&corners, self.clearance_of(from.leg..=to.leg)) {
             Ok(path) => {
                 self.legs.splice(from.leg..=to.leg, path.into_legs()).for_each(drop);
                 true
             }
             Err(_) => false,
         }
+    }
+
+    /// The clearance that what replaces these legs is to keep, metres: the margin where they have it, else theirs.
+    fn clearance_of(&self, legs: RangeInclusive<usize>) -> f64 {
+        let proven = |leg: &Leg<ChartLine<R>>| leg.certificate().clearance();
+        let least = self.legs[legs.clone()].iter().fold(f64::INFINITY, |least, leg| lesser(proven(leg), least));
+        // a certificate may prove less than there is
+        let has_margin = least >= MARGIN || {
+            let motions = self.legs[legs].iter().map(|leg| leg.motion().clone());
+            LinePath::try_keeping(self.checker, motions, MARGIN).is_ok()
+        };
+        if has_margin { MARGIN } else { least }
+    }
+
+    /// The path through these corners, if it is proven to keep a clearance.
+    fn through(&self, corners: &[R::Configuration], kept: f64) -> Result<LinePath<R>, PathError> {
+        let path = LinePath::through(self.checker, corners)?;
+        if path.clearance() >= kept {
+            return Ok(path);
+        }
+        LinePath::try_keeping(self.checker, path.into_legs().into_iter().map(|leg| leg.motion().clone()), kept)
     }
 
     /// Cuts the corner at the end of a leg.

@@ -90,6 +90,20 @@ fn bugs_find_a_way_wherever_there_is_one_for_the_clearance_that_they_keep() {
     assert!(ways > 40 && rounds > 15, "{ways} {rounds}");
 }
 
+/// At this seed both come round by another way than the one on which they came to the boundary.
+const NOT_BACK: u64 = 284;
+
+#[test]
+fn a_round_is_closed_that_does_not_come_back_to_where_it_began() {
+    let problem = clutter(NOT_BACK);
+    assert!(has_way(&problem));
+    let mut bugs: [Box<dyn Planner<RustyDisc>>; 2] =
+        [Box::new(Bug1::try_new(&problem).unwrap()), Box::new(Bug2::try_new(&problem).unwrap())];
+    for bug in &mut bugs {
+        solved(bug.as_mut(), NOT_BACK, |corners| disc_clearance(problem.checker().scene(), 0.1, corners));
+    }
+}
+
 /// At this seed Bug2's steps go past the place to leave from; before, it said that there was no path.
 const GOES_PAST: u64 = 651;
 
@@ -100,4 +114,31 @@ fn bug2_that_went_past_a_place_to_leave_from_leaves_where_it_was_nearest() {
         disc_clearance(problem.checker().scene(), 0.11, corners)
     });
     assert!(path.legs().len() > 100);
+}
+
+/// A wall across the room with a gap of this width for a disc of 20 cm, and a place on either side of it, not in line
+/// with the gap.
+fn through_a_gap(width: f64) -> Problem<RustyDisc> {
+    let half = 0.5 * width;
+    let checker = room(&[[0.0, -2.5, 0.0, 0.4 - half], [0.0, 0.4 + half, 0.0, 2.5]]);
+    Problem::try_new(checker, R2::new(-1.0, -0.5), R2::new(1.0, -0.5), Seed(1)).unwrap()
+}
+
+#[test]
+fn bugs_pass_a_gap_for_which_they_keep_less_than_they_like() {
+    // with half the radius kept on either side a gap has to be 30 cm wide, with a sixteenth 21.25 cm
+    for width in [0.31, 0.29, 0.24, 0.22, 0.214] {
+        let problem = through_a_gap(width);
+        let mut bugs: [Box<dyn Planner<RustyDisc>>; 2] =
+            [Box::new(Bug1::try_new(&problem).unwrap()), Box::new(Bug2::try_new(&problem).unwrap())];
+        for bug in &mut bugs {
+            let path = solved(bug.as_mut(), 1, |corners| disc_clearance(problem.checker().scene(), 0.1, corners));
+            let room = 0.5 * (width - 0.2);
+            assert!(path.clearance() <= room && path.clearance() > 0.0, "{} {width}", bug.name());
+        }
+    }
+    let problem = through_a_gap(0.21);
+    let none = solve(&mut Bug2::try_new(&problem).unwrap(), &Bounds::default()).unwrap_err();
+    assert_eq!(none, NoPath::Enclosed { kept: 0.00625 });
+    assert!(solve(&mut VisibilityGraph::new(problem), &Bounds::default()).is_ok(), "there is a way all the same");
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motion_lab_core::configuration::Chart;
 use motion_lab_core::num::{cos, sin};
-use motion_lab_core::planning::{Ball, CertifiedPath, Metric, PathError, TipDisc};
+use motion_lab_core::planning::{Ball, CertifiedPath, MARGIN, Metric, PathError, TipDisc};
 
 use super::*;
 
@@ -15,7 +15,7 @@ fn a_path_is_proven_or_refused() {
     let path = |corners: &[R2]| CertifiedPath::through(&checker, corners);
     assert_eq!(path(&[]).unwrap_err(), PathError::Empty);
     let through = path(&[at(-1.0, 0.0), at(-0.5, 0.0), at(0.5, 0.0)]).unwrap_err();
-    assert!(matches!(through, PathError::NotFree { leg: 1, verdict: EdgeVerdict::Hit { .. } }), "{through:?}");
+    assert!(matches!(through, PathError::NotFree { leg: 1, verdict: EdgeVerdict::Hit { .. }, .. }), "{through:?}");
     let nan = path(&[at(-1.0, 0.0), at(f64::NAN, 0.0)]).unwrap_err();
     assert!(matches!(nan, PathError::Configuration { corner: 0, .. }), "{nan:?}");
     let edge = |a: R2, b: R2| checker.robot().edge(&a, &b).unwrap();
@@ -113,4 +113,88 @@ fn a_goal_region_is_reached_where_its_centre_need_not_be() {
     let (centre, problem) = (T2::new(0.0, 0.0), round_the_post(1));
     let ball = Ball { centre, radius: 0.5, metric: Metric::unit(&centre) };
     assert!(problem.try_with_region(Arc::new(ball)).is_err(), "the goal does not lie in it");
+}
+
+/// Corners above a wall on y = 0 from x = -1 to 1, whose ends a disc of 10 cm goes round.
+fn over_a_wall(corners: &[[f64; 2]]) -> (DiscChecker, LinePath<RustyDisc>) {
+    let checker = room(&[[-1.0, 0.0, 1.0, 0.0]]);
+    let corners: Vec<R2> = corners.iter().map(|[x, y]| R2::new(*x, *y)).collect();
+    let path = LinePath::through(&checker, &corners).unwrap();
+    (checker, path)
+}
+
+#[test]
+fn shortcuts_keep_a_millimetre_where_the_path_has_it() {
+    // from 0.1 mm to 0.5 m above the wall and back: the straight way is 0.1 mm above it
+    let low = 0.1001;
+    let (checker, path) = over_a_wall(&[[-1.5, low], [0.0, 0.6], [1.5, low]]);
+    let metric = Metric::unit(&path.start());
+    let clearance = |path: &LinePath<RustyDisc>| disc_clearance(checker.scene(), 0.1, &path.corners());
+    assert!(clearance(&path) > MARGIN, "{}", clearance(&path));
+    let shorter = [
+        path.pruned(&checker, &metric),
+        path.smoothed(&checker, &metric, 6),
+        path.shortcut(&checker, &metric, &mut Stream::new(Seed(3), "shortcut"), 400),
+    ];
+    for short in &shorter {
+        let claimed = short.verify(checker.scene()).unwrap();
+        assert!(claimed >= MARGIN && clearance(short) >= MARGIN - 1e-9, "{claimed} {}", clearance(short));
+    }
+    assert!(shorter[2].length(&metric) < 0.99 * path.length(&metric), "it is shortened all the same");
+    // a path that has less is shortened as far as it goes itself
+    let (_, near) = over_a_wall(&[[-1.5, low], [0.0, low], [0.2, 0.3], [0.5, low], [1.5, low]]);
+    let pruned = near.pruned(&checker, &metric);
+    assert!(pruned.corners().iter().all(|q| q.0.y == low), "{:?}", pruned.corners());
+    assert!((clearance(&pruned) - 1e-4).abs() < 1e-8, "{}", clearance(&pruned));
+}
+
+#[test]
+fn an_arms_shortcuts_keep_the_margin_too() {
+    let mut kept = 0;
+    for seed in 0..40 {
+        let path = solve(&mut RrtConnect::new(round_the_post(seed)), &Bounds::default()).unwrap();
+        let (problem, metric) = (round_the_post(seed), Metric::unit(&path.start()));
+        if arm_clearance(&path.corners()) < MARGIN + 1e-6 {
+            continue;
+        }
+        kept += 1;
+        let short = path.shortcut(problem.checker(), &metric, &mut Stream::new(Seed(seed), "shortcut"), 200);
+        let clearance = arm_clearance(&short.pruned(problem.checker(), &metric).corners());
+        assert!(clearance >= MARGIN - 1e-7, "seed {seed}: {clearance}");
+    }
+    assert!(kept > 30, "{kept}");
+}
+
+#[test]
+fn a_path_that_keeps_a_margin_is_proven_to() {
+    let (checker, path) = over_a_wall(&[[-1.5, 0.2], [1.5, 0.2]]);
+    let motions = || path.legs().iter().map(|leg| leg.motion().clone());
+    // the wall is 0.2 m away, the radius 0.1 m
+    let kept = LinePath::try_keeping(&checker, motions(), 0.099).unwrap();
+    assert!(kept.verify(checker.scene()).unwrap() > 0.099);
+    let near = LinePath::try_keeping(&checker, motions(), 0.101).unwrap_err();
+    assert_eq!(near.to_string(), "leg 0 hits wall 0 with part 0");
+}
+
+#[test]
+fn a_leg_that_hits_names_the_obstacle_and_the_part() {
+    let checker = room(&[[0.0, -0.5, 0.0, 0.5], [1.0, -0.5, 1.0, 0.5]]);
+    let at = R2::new;
+    let through = CertifiedPath::through(&checker, &[at(-1.0, 0.8), at(0.5, 0.8), at(0.5, 0.0), at(1.5, 0.0)]);
+    let refused = through.unwrap_err();
+    assert_eq!(refused.to_string(), "leg 2 hits wall 1 with part 0");
+    let PathError::NotFree { obstacle, .. } = &refused else { panic!("{refused:?}") };
+    assert_eq!(obstacle.as_deref(), Some("wall 1"));
+    // the arm turns about its base, stretched out, and the post stands beside its first link
+    let arm = round_the_post(1);
+    let refused = CertifiedPath::through(arm.checker(), &[arm.start(), arm.goal()]).unwrap_err().to_string();
+    assert_eq!(refused, "leg 0 hits the post with part 0");
+    // a hitch that folds too far hits nothing
+    let plane = Aabb::new(Point2::new(-50.0, -50.0), Point2::new(50.0, 50.0));
+    let car = Checker::new(Scene::empty(plane), HITCH.with_trailer().with_jackknife(0.3));
+    let q = HitchCfg { body: Pose2::new(6.5, 2.5, 0.0), trailer: Some(0.0) };
+    let arc = car.robot().drive(&q, &CarCmd { v: 1.0, phi: 0.5 }, 3.0).unwrap();
+    let folded = CertifiedPath::try_new(&car, [arc]).unwrap_err();
+    assert_eq!(folded.to_string(), "leg 0 leaves the robot's own limits with part 1");
+    assert!(matches!(folded, PathError::NotFree { obstacle: None, .. }), "{folded:?}");
 }

@@ -3,11 +3,14 @@
 use super::lines::numbered_lines;
 use crate::error::wrong_value;
 use crate::{ImportError, ImportProblem, Imported};
-use motion_lab_core::geometry::Pose2;
+use motion_lab_core::geometry::{Aabb, Pose2};
 use motion_lab_core::worlds::{MAX_ITEMS, Place, World, WorldProblem};
 
 /// Largest number of problems of one file.
 const MAX_PROBLEMS: usize = MAX_ITEMS / 2;
+
+/// By how much a map and a world's bounds may differ where they are the same but for rounding, as a share.
+const ROUNDING: f64 = 1e-9;
 
 /// The columns of a problem's line.
 const COLUMNS: &str = "bucket, map, width, height, start x, start y, goal x, goal y, length";
@@ -26,6 +29,8 @@ pub struct MapCell {
 pub struct ScenarioProblem {
     /// The line that it stands in, from 1.
     pub line: usize,
+    /// The number of its bucket: problems of like lengths share one.
+    pub bucket: u64,
     /// The cell to start in.
     pub start: MapCell,
     /// The cell to reach.
@@ -72,6 +77,31 @@ impl Scenario {
     pub fn pose(&self, cell: MapCell, metres_per_cell: f64) -> Pose2 {
         let (x, y) = (cell.x as f64 + 0.5, self.height as f64 - cell.y as f64 - 0.5);
         Pose2::new(x * metres_per_cell, y * metres_per_cell, 0.0)
+    }
+
+    /// The size of a cell in a world whose bounds the map fills, metres: every world that is made of a map is so.
+    ///
+    /// # Errors
+    /// [`ImportError`] if the bounds have other proportions than the map. `file` is the scenario's name in errors.
+    pub fn metres_per_cell(&self, file: &str, bounds: &Aabb) -> Result<f64, ImportError> {
+        let (width, height) = (bounds.max.x - bounds.min.x, bounds.max.y - bounds.min.y);
+        let scale = width / self.width as f64;
+        if (height - scale * self.height as f64).abs() <= ROUNDING * height {
+            return Ok(scale);
+        }
+        let cells = format!("{} x {} cells", self.width, self.height);
+        let problem = ImportProblem::Syntax(format!("{cells} do not fill the world's bounds, {width} x {height} m"));
+        Err(ImportError::at(0, "", problem).of(file))
+    }
+
+    /// The scenario as a text that [`parse`](Self::parse) reads, with tabs between its columns.
+    pub fn to_text(&self) -> String {
+        let line = |problem: &ScenarioProblem| {
+            let ScenarioProblem { bucket, start, goal, length, .. } = problem;
+            let cells = [start.x, start.y, goal.x, goal.y].map(|n| n.to_string()).join("\t");
+            format!("{bucket}\t{}\t{}\t{}\t{cells}\t{length}\n", self.map, self.width, self.height)
+        };
+        "version 1\n".to_owned() + &self.problems.iter().map(line).collect::<String>()
     }
 
     /// Adds the places `start 1`, `goal 1`, `start 2` and so on to the world of its map, which has this size.
@@ -147,7 +177,7 @@ impl ScenarioLine<'_> {
         } else {
             text.split_whitespace().collect()
         };
-        let [_, map, width, height, start_x, start_y, goal_x, goal_y, length] = columns[..] else {
+        let [bucket, map, width, height, start_x, start_y, goal_x, goal_y, length] = columns[..] else {
             let found = format!("{} columns", columns.len());
             return Err(ImportError::at(
                 line,
@@ -159,6 +189,7 @@ impl ScenarioLine<'_> {
             let number = text.parse::<u64>().ok().filter(|number| *number >= least);
             number.ok_or_else(|| ImportError::at(line, item, wrong_value(text, "a whole number")))
         };
+        let bucket = whole("bucket", bucket, 0)?;
         let size = [whole("width", width, 1)?, whole("height", height, 1)?];
         let cell = |name: &str, x: &str, y: &str| {
             let cell = MapCell { x: whole(&format!("{name} x"), x, 0)?, y: whole(&format!("{name} y"), y, 0)? };
@@ -174,6 +205,6 @@ impl ScenarioLine<'_> {
             .ok()
             .filter(|length| length.is_finite() && *length >= 0.0)
             .ok_or_else(|| ImportError::at(line, "length", wrong_value(length, "a finite number from 0 on")))?;
-        Ok(ScenarioLine { map, size, problem: ScenarioProblem { line, start, goal, length } })
+        Ok(ScenarioLine { map, size, problem: ScenarioProblem { line, bucket, start, goal, length } })
     }
 }

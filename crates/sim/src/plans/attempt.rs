@@ -2,7 +2,7 @@
 
 use crate::run::Script;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
-use motion_lab_core::collision::{Collision, EdgeVerdict, ProvenStep};
+use motion_lab_core::collision::{Checker, Collision, EdgeVerdict, ProvenStep};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::cspace::CellMap;
 use motion_lab_core::planning::{
@@ -143,12 +143,22 @@ pub struct Trial<R: Robot, M: LegMotion<Configuration = R::Configuration>> {
     unproven: Option<UnprovenPath<M>>,
     /// The number of motions that were rejected before the last iteration.
     rejected_before: u64,
+    /// The robot in its own scene, and the clearance that its path is to keep there, metres, where the planner's scene
+    /// is one of larger obstacles.
+    kept: Option<(Checker<R>, f64)>,
 }
 
 impl<R: Robot, M: LegMotion<Configuration = R::Configuration>> Trial<R, M> {
     /// The planner before its first iteration.
     pub fn new(planner: Box<dyn Planner<R, M> + Send>) -> Self {
-        Trial { planner, path: None, unproven: None, rejected_before: 0 }
+        Trial { planner, path: None, unproven: None, rejected_before: 0, kept: None }
+    }
+
+    /// The same planner, whose scene is that of `checker` with obstacles larger by `margin` metres: a path counts once
+    /// it is proven to keep more than that margin in the checker's own scene.
+    #[must_use]
+    pub fn keeping(self, checker: Checker<R>, margin: f64) -> Self {
+        Trial { kept: Some((checker, margin)), ..self }
     }
 }
 
@@ -174,15 +184,22 @@ impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration
         if planner.problem().checker().black_box().is_some() {
             self.unproven = Some(called_free(planner)?);
         } else {
-            self.path = Some(accepted(planner)?);
+            let path = accepted(planner)?;
+            self.path = Some(self.in_own_scene(path)?);
         }
         Ok(())
+    }
+
+    /// The path with its proof in the robot's own scene.
+    fn in_own_scene(&self, path: CertifiedPath<M>) -> Result<CertifiedPath<M>, PathError> {
+        let Some((checker, margin)) = &self.kept else { return Ok(path) };
+        CertifiedPath::try_keeping(checker, path.legs().iter().map(|leg| leg.motion().clone()), *margin)
     }
 
     /// The motion of a path that nobody has proven, where the exact scene says that it hits.
     fn hit(&self) -> Option<Rejected> {
         let (path, checker) = (self.unproven.as_ref()?, self.planner.problem().checker());
-        let Err(PathError::NotFree { leg, verdict }) = path.certified(checker) else { return None };
+        let Err(PathError::NotFree { leg, verdict, .. }) = path.certified(checker) else { return None };
         let (motion, EdgeVerdict::Hit { contact_at, .. }) = (&path.motions()[leg], verdict) else { return None };
         let at = motion.at(contact_at);
         let witness = checker.scene().witness(&motion.footprint_at(contact_at));
@@ -209,7 +226,8 @@ where
         if planner.problem().checker().black_box().is_some() {
             self.unproven = Some(solve_unproven(planner, bounds)?);
         } else {
-            self.path = Some(solve(planner, bounds)?);
+            let path = solve(planner, bounds)?;
+            self.path = Some(self.in_own_scene(path)?);
         }
         Ok(())
     }
@@ -226,8 +244,7 @@ where
                 break;
             }
         }
-        self.path = Some(accepted(self.planner.as_ref())?);
-        Ok(())
+        Ok(self.take()?)
     }
 
     fn step(&mut self) -> Progress {

@@ -32,4 +32,4 @@ pub use drawn::{Drawn, Rejected};
 pub use named::PlannerName;
 pub use path_file::{Counts, MAX_PATH_BYTES, PathFile, PathFileError};
 pub use picture::{space_items, workspace_items};
-pub use task::{TUBE, Task};
+pub use task::{MAX_CLEARANCE, TUBE, Task};

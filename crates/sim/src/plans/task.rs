@@ -3,27 +3,30 @@
 use std::sync::Arc;
 
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
-use motion_lab_core::collision::{Problem, Scene};
+use motion_lab_core::collision::{Checker, Problem, ProblemError, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::greater;
 use motion_lab_core::planning::hybrid::HybridAStar;
 use motion_lab_core::planning::{
-    Bug1, Bug2, CellDecomposition, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt, RrtConnect,
-    RrtStar, VisibilityGraph,
+    Bug1, Bug2, CellDecomposition, CertifiedPath, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt,
+    RrtConnect, RrtStar, VisibilityGraph,
 };
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Robot, Rusty, RustyDisc};
 use motion_lab_core::sensors::BeamModel;
 use motion_lab_core::worlds::{Resident, World};
 
-use super::attempt::{PlanAttempt, Trial};
+use super::attempt::{LegMotion, PlanAttempt, Trial};
 use super::bug1_sensor::Bug1Sensor;
 use super::checker_name::CheckerName;
 use super::named::PlannerName;
 
 /// How much larger a rover is planned unless somebody says otherwise, metres.
 pub const TUBE: f64 = 0.02;
+
+/// Largest clearance that a path may be asked to keep, metres.
+pub const MAX_CLEARANCE: f64 = 100.0;
 
 /// The least tube in which a path is played, metres: no follower stays on a line without any width.
 const MIN_TUBE: f64 = 1e-3;
@@ -45,6 +48,9 @@ pub struct Task {
     pub goal: AnyConfiguration,
     /// How much larger a rover is planned, metres, so that its script may stray from the path by as much.
     pub tube: f64,
+    /// The clearance that the path is to keep beside the tube, metres; with 0 it only touches nothing. A path that
+    /// keeps it is proven: [`CheckerName::EXACT`] alone plans so, and no robot that walks by its sensor does.
+    pub clearance: f64,
     /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
     /// sensor.
     pub noise: Option<BeamModel>,
@@ -64,6 +70,7 @@ impl Task {
             start,
             goal,
             tube: TUBE,
+            clearance: 0.0,
             noise: None,
             checker: CheckerName::EXACT,
         }
@@ -102,6 +109,9 @@ impl Task {
     /// [`NoPath`]: there is no problem, or the planner does not suit the robot.
     pub fn attempt(&self, name: PlannerName, seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
         name.suits(&self.robot).map_err(NoPath::Unsuited)?;
+        if self.clearance > 0.0 && name == PlannerName::Bug1Sensor {
+            return Err(NoPath::Unsuited("it walks by what its sensor sees, and keeps no clearance of yours"));
+        }
         match (self.robot, self.start, self.goal) {
             (AnyRobot::Reach(arm), AnyConfiguration::T2(start), AnyConfiguration::T2(goal)) => {
                 self.by_lines::<Reach<2>>(arm, [start, goal], name, seed)
@@ -120,8 +130,8 @@ impl Task {
             }
             (AnyRobot::Hitch(car), AnyConfiguration::Hitch(start), AnyConfiguration::Hitch(goal)) => {
                 let car = if start.trailer.is_some() { car.with_trailer() } else { car.without_trailer() };
-                let problem = Problem::try_new(self.checker.checker(&self.scene, car), start, goal, seed)?;
-                Ok(Box::new(Trial::<Hitch, HitchArc>::new(Box::new(HybridAStar::new(problem)))))
+                let problem = self.problem(car, [start, goal], seed)?;
+                Ok(self.trial::<Hitch, HitchArc>(car, Box::new(HybridAStar::new(problem))))
             }
             _ => Err(NoPath::Unsuited("start and goal are no configurations of this robot")),
         }
@@ -142,8 +152,8 @@ impl Task {
             AnyConfiguration::Pose(pose) => AnyConfiguration::Pose(Pose2::new(pose.x, pose.y, 0.0)),
             q => q,
         });
-        let problem = Problem::try_new(self.checker.checker(&self.scene, self.planned()), start, goal, seed)?;
-        Ok(Box::new(Trial::new(Box::new(CellDecomposition::new(problem)))))
+        let problem = self.problem(self.planned(), [start, goal], seed)?;
+        Ok(self.trial(self.planned(), Box::new(CellDecomposition::new(problem))))
     }
 
     /// The planner whose rover walks by its range sensor.
@@ -165,7 +175,7 @@ impl Task {
         R: Robot<Configuration: Chart + Into<AnyConfiguration>> + Send,
         LinePath<R>: PlayablePath,
     {
-        let problem = Problem::try_new(self.checker.checker(&self.scene, robot), start, goal, seed)?;
+        let problem = self.problem(robot.clone(), [start, goal], seed)?;
         let planner: Box<dyn Planner<R, ChartLine<R>> + Send> = match name {
             PlannerName::RrtConnect => Box::new(RrtConnect::new(problem)),
             PlannerName::Rrt => Box::new(Rrt::new(problem)),
@@ -181,7 +191,47 @@ impl Task {
             PlannerName::Bug1Sensor => return Err(NoPath::Unsuited("it walks by the range sensor of a rover")),
             PlannerName::HybridAStar => return Err(NoPath::Unsuited("it plans for a car only")),
         };
-        Ok(Box::new(Trial::new(planner)))
+        Ok(self.trial(robot, planner))
+    }
+
+    /// The scene in which a planner plans: the world's, with obstacles larger by the clearance that is to be kept.
+    pub fn planned_scene(&self) -> Arc<Scene> {
+        if self.clearance > 0.0 { Arc::new(self.scene.grown(self.clearance)) } else { Arc::clone(&self.scene) }
+    }
+
+    /// The problem of a robot in the scene in which it is planned.
+    fn problem<R: Robot>(
+        &self,
+        robot: R,
+        [start, goal]: [R::Configuration; 2],
+        seed: Seed,
+    ) -> Result<Problem<R>, ProblemError> {
+        let own = Problem::try_new(self.checker.checker(&self.scene, robot.clone()), start, goal, seed)?;
+        if self.clearance <= 0.0 {
+            return Ok(own);
+        }
+        for (end, q) in [("start", &start), ("goal", &goal)] {
+            let nearest = own.checker().witness(q).ok().flatten().filter(|witness| witness.dist <= self.clearance);
+            if let Some(witness) = nearest {
+                let obstacle = self.scene.obstacle_name(witness.obstacle).unwrap_or("an obstacle").to_owned();
+                return Err(ProblemError::Clearance { end, obstacle, clearance: witness.dist, kept: self.clearance });
+            }
+        }
+        Problem::try_new(self.checker.checker(&self.planned_scene(), robot), start, goal, seed)
+    }
+
+    /// A planner of this task at work, of this robot.
+    fn trial<R, M>(&self, robot: R, planner: Box<dyn Planner<R, M> + Send>) -> Box<dyn PlanAttempt>
+    where
+        R: Robot<Configuration: Into<AnyConfiguration>> + Send + 'static,
+        M: LegMotion<Configuration = R::Configuration>,
+        CertifiedPath<M>: PlayablePath,
+    {
+        let trial = Trial::new(planner);
+        if self.clearance > 0.0 {
+            return Box::new(trial.keeping(Checker::new(Arc::clone(&self.scene), robot), self.clearance));
+        }
+        Box::new(trial)
     }
 }
 

@@ -21,7 +21,7 @@ impl Capture {
         let no_problem = |reason| Failure::usage(reason, "Change --q or --goal.");
         let mut attempt = task::attempt(&task, name, Seed(seed))?.map_err(no_problem)?;
         let progress = CommandProgress::uncounted("iterations");
-        let solved = solve(attempt.as_mut(), name.iterations(), |done| progress.at(done));
+        let solved = solve(attempt.as_mut(), name, None, |done| progress.at(done));
         drop(progress);
         if solved.is_none() {
             return Ok(Outcome::Stopped);

@@ -1,13 +1,15 @@
 //! What to do where there is no path.
 
+use motion_lab::collision::ProblemError;
 use motion_lab::planning::NoPath;
 
 /// What to do where there is no path.
 pub(super) fn next(reason: &NoPath) -> &'static str {
     match reason {
+        NoPath::Problem(ProblemError::Clearance { .. }) => "Choose another --from or --to, or a smaller --clearance.",
         NoPath::Problem(_) => "Choose another --from or --to; `motion-lab query witness` says what is in the way.",
         NoPath::Exhausted { .. } => "There may be one: allow more --iterations, or try another --seed or --planner.",
-        NoPath::NoneInGraph { .. } | NoPath::LocalMinimum { .. } | NoPath::GaveUp(_) => {
+        NoPath::NoneInGraph { .. } | NoPath::LocalMinimum { .. } | NoPath::Enclosed { .. } | NoPath::GaveUp(_) => {
             "There may be one: try another --planner."
         }
         NoPath::Unsuited(_) => "Try another --planner.",

@@ -23,14 +23,16 @@ use std::path::PathBuf;
 /// With --checker parry the planner asks the book's black box instead. Nothing of its path is proven: it may lead
 /// through a wall, and can't be played.
 ///
-/// With --compare several planners work on the same problem at several seeds; --csv has a row for each attempt.
+/// With --compare several planners work on the same problem, or by --problems on all of a scenario, at several seeds;
+/// --csv has a row for each attempt.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   motion-lab plan --robot reach --from 2.0,0 --to 3.1,0 --svg path.svg --gif growth.gif
   motion-lab plan --planner rrt-connect --robot reach --from 2.0,0 --to 3.1,0 --seed 7 -o path.json --script out.ron
   motion-lab plan --robot hitch --from 6.5,2.5,0,0 --to 6.75,7,-1.5707963,-1.5707963 --record parked.mcap
-  motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv")]
+  motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv
+  motion-lab plan --compare rrt-connect,a-star --robot rusty --world arena.ron --problems arena.scen --csv all.csv")]
 pub struct PlanArgs {
     /// The planner. [default: hybrid-a-star for a car, rrt-connect for any other robot]
     #[arg(long, value_name = "PLANNER", value_parser = task::planner_name(), conflicts_with = "compare")]
@@ -47,18 +49,23 @@ pub struct PlanArgs {
     #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
     pub(super) from: Option<NumberList>,
     /// Where the path ends.
-    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true)]
-    pub(super) to: NumberList,
+    #[arg(long, value_name = "NUMBERS", allow_hyphen_values = true, required_unless_present = "problems")]
+    pub(super) to: Option<NumberList>,
     /// The seed of the planner's samples, and of the run that plays the path.
     #[arg(long, default_value_t = 2005, conflicts_with = "compare")]
     pub(super) seed: u64,
-    /// The greatest number of iterations. With it rrt-star goes on to that number and shortens its path; without it
-    /// the first path is taken. [default: 20000 for hybrid-a-star, 100000 for any other planner]
+    /// The greatest number of iterations. With it rrt-star goes on to that number and shortens its path, in a
+    /// comparison too; without it the first path is taken. [default: 20000 for hybrid-a-star, 100000 for any other
+    /// planner]
     #[arg(long, value_name = "N")]
     pub(super) iterations: Option<u64>,
     /// A rover is planned this much larger, metres, so that its script may stray from the path by as much: 0 to 1.
     #[arg(long, value_name = "METRES", default_value_t = 0.02)]
     pub(super) tube: f64,
+    /// The clearance that the path keeps from every obstacle, beside the tube, metres: 0 to 100. Start and goal are to
+    /// have it too. With 0 the path touches nothing, and may come as near as a proof can tell.
+    #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true)]
+    pub(super) clearance: f64,
     /// Who answers the planner's questions. With parry, the book's black box, nothing is proven: what is printed and
     /// written says so, and adds what the exact checker finds along the path.
     #[arg(long, value_name = "CHECKER", value_parser = checker(), default_value = "exact", conflicts_with = "compare")]
@@ -91,7 +98,10 @@ pub struct PlanArgs {
     /// Compare these planners, joined by commas.
     #[arg(long, value_parser = task::planner_name(), value_delimiter = ',', value_name = "PLANNERS")]
     pub(super) compare: Vec<PlannerName>,
-    /// The seeds of a comparison, without the last.
+    /// Compare them by every problem of this MovingAI scenario, from start to goal; the world is that of its map.
+    #[arg(long, value_name = "FILE", requires = "compare", conflicts_with_all = ["from", "to"])]
+    pub(super) problems: Option<PathBuf>,
+    /// The seeds of a comparison, without the last. [default: 0..100; of a scenario's problems 0..1]
     #[arg(long, value_name = "A..B", requires = "compare")]
     pub(super) seeds: Option<SeedRange>,
     /// Write a row for each attempt of a comparison to this file, as CSV.

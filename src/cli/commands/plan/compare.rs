@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use super::answer::PlanAnswer;
 use super::args::PlanArgs;
+use super::cases::{Case, KnownProblem};
 use super::rounds::solve;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::interrupt;
@@ -24,8 +25,12 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// The seeds of a comparison without `--seeds`.
 const SEEDS: SeedRange = SeedRange { first: 0, end: 100 };
 
+/// The seeds for each of a scenario's problems without `--seeds`.
+const SEEDS_OF_PROBLEMS: SeedRange = SeedRange { first: 0, end: 1 };
+
 /// What came of one planner at one seed.
 struct Row {
+    case: Case,
     planner: PlannerName,
     seed: u64,
     effort: Effort,
@@ -44,26 +49,32 @@ struct PlannerMedians {
     edges: Option<f64>,
     length: Option<JsonNumber>,
     clearance: Option<JsonNumber>,
+    /// The length as a share of the shortest one that the scenario says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of_optimal: Option<f64>,
 }
 
 /// Compares planners: prints a table, and writes a row for each attempt where that is asked for.
-pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome, Failure> {
-    let seeds = args.seeds.unwrap_or(SEEDS);
+pub fn compare(args: &PlanArgs, mut task: Task, cases: &[Case], data: &mut Data) -> Result<Outcome, Failure> {
+    let is_of_problems = args.problems.is_some();
+    let seeds = args.seeds.unwrap_or(if is_of_problems { SEEDS_OF_PROBLEMS } else { SEEDS });
     let target = args.csv.as_deref().map(Target::of).transpose()?;
     // each once, whatever the command line repeats
     let is_first = |(i, planner): &(usize, &PlannerName)| !args.compare[..*i].contains(planner);
     let planners: Vec<_> = args.compare.iter().enumerate().filter(is_first).map(|(_, planner)| *planner).collect();
-    let count = (seeds.end - seeds.first).saturating_mul(planners.len() as u64);
+    let count = (seeds.end - seeds.first).saturating_mul(planners.len() as u64).saturating_mul(cases.len() as u64);
     let progress = CommandProgress::of(count, "attempts");
     interrupt::listen();
     let (mut rows, mut is_stopped) = (Vec::new(), false);
-    'all: for &planner in &planners {
+    let of_planner = |planner| cases.iter().map(move |case| (planner, case));
+    'all: for (planner, case) in planners.iter().copied().flat_map(of_planner) {
+        [task.start, task.goal] = case.ends;
         for seed in seeds.first..seeds.end {
             is_stopped = interrupt::asked_to_stop();
             if is_stopped {
                 break 'all;
             }
-            match row(args, task, planner, seed)? {
+            match row(args, &task, case, (planner, seed))? {
                 Ok(Some(row)) => rows.push(row),
                 Ok(None) => {
                     is_stopped = true;
@@ -73,7 +84,7 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
                 Err(reason) => {
                     drop(progress);
                     if args.json {
-                        data.json(&PlanAnswer::of_none(task, planner, seed, &reason))?;
+                        data.json(&PlanAnswer::of_none(&task, planner, seed, &reason))?;
                         return Ok(Outcome::NoPath);
                     }
                     say(format!("{}\n{}", super::advice::in_words(&reason.to_string()), super::advice::next(&reason)));
@@ -88,10 +99,10 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
     if args.json {
         data.json(&lines)?;
     } else {
-        print(&lines, unit(&task.robot), data)?;
+        print(&lines, unit(&task.robot), is_of_problems, data)?;
     }
     if let Some(target) = target {
-        write_file(&target, csv(task, &rows).as_bytes())?;
+        write_file(&target, csv(&task, &rows, is_of_problems).as_bytes())?;
         target.finish(data)?;
     }
     if is_stopped {
@@ -102,20 +113,26 @@ pub fn compare(args: &PlanArgs, task: &Task, data: &mut Data) -> Result<Outcome,
 }
 
 /// A row, or why there is no problem. `None` where somebody asked to stop.
-fn row(args: &PlanArgs, task: &Task, planner: PlannerName, seed: u64) -> Result<Result<Option<Row>, NoPath>, Failure> {
+fn row(
+    args: &PlanArgs,
+    task: &Task,
+    case: &Case,
+    (planner, seed): (PlannerName, u64),
+) -> Result<Result<Option<Row>, NoPath>, Failure> {
+    let case = *case;
     let begun = Instant::now();
     let mut attempt = match super::task::attempt(task, planner, Seed(seed))? {
         Ok(attempt) => attempt,
-        Err(reason @ NoPath::Problem(_)) => return Ok(Err(reason)),
+        Err(reason @ NoPath::Problem(_)) if case.problem.is_none() => return Ok(Err(reason)),
         Err(reason) => {
             let (effort, path) = (Effort::default(), Err(reason.to_string()));
-            return Ok(Ok(Some(Row { planner, seed, effort, seconds: 0.0, path })));
+            return Ok(Ok(Some(Row { case, planner, seed, effort, seconds: 0.0, path })));
         }
     };
-    let Some(solved) = solve(attempt.as_mut(), args.bound(planner), |_| {}) else { return Ok(Ok(None)) };
+    let Some(solved) = solve(attempt.as_mut(), planner, args.iterations, |_| {}) else { return Ok(Ok(None)) };
     let seconds = begun.elapsed().as_secs_f64();
     let path = solved.map(|()| attempt.lengths()).map_err(|reason| reason.to_string());
-    Ok(Ok(Some(Row { planner, seed, effort: attempt.effort(), seconds, path })))
+    Ok(Ok(Some(Row { case, planner, seed, effort: attempt.effort(), seconds, path })))
 }
 
 /// The middle of some numbers; the mean of the two middle ones of an even count. `None` without any.
@@ -139,42 +156,54 @@ fn line(planner: PlannerName, rows: &[Row]) -> PlannerMedians {
         edges: of(|row, _| row.effort.edges as f64),
         length: of(|_, path| path.length).map(JsonNumber),
         clearance: of(|_, path| path.clearance).map(JsonNumber),
+        of_optimal: median(solved.iter().filter_map(|(row, path)| row.case.of_optimal(path.length)).collect()),
     }
 }
 
-fn print(lines: &[PlannerMedians], unit: &str, data: &mut Data) -> Result<(), Failure> {
+fn print(lines: &[PlannerMedians], unit: &str, is_of_problems: bool, data: &mut Data) -> Result<(), Failure> {
     let width = lines.iter().map(|line| line.planner.len()).max().unwrap_or(0).max(7);
     let length = format!("length {unit}");
     data.line(format!(
-        "{:width$}  {:>11}  {:>9}  {:>8}  {length:>10}  {:>11}",
-        "planner", "solved", "time ms", "edges", "clearance m"
+        "{:width$}  {:>11}  {:>9}  {:>8}  {length:>10}  {:>11}{}",
+        "planner",
+        "solved",
+        "time ms",
+        "edges",
+        "clearance m",
+        if is_of_problems { "  of optimal" } else { "" }
     ))?;
     let number = |x: Option<f64>, digits: usize| x.map_or("-".to_owned(), |x| format!("{x:.digits$}"));
     for line in lines {
         let solved = format!("{} of {}", line.solved, line.attempts);
         data.line(format!(
-            "{:width$}  {solved:>11}  {:>9}  {:>8}  {:>10}  {:>11}",
+            "{:width$}  {solved:>11}  {:>9}  {:>8}  {:>10}  {:>11}{}",
             line.planner,
             number(line.milliseconds, 2),
             number(line.edges, 0),
             number(line.length.map(|length| length.0), 3),
-            line.clearance.map_or("-".to_owned(), |clearance| proven(clearance.0))
+            line.clearance.map_or("-".to_owned(), |clearance| proven(clearance.0)),
+            if is_of_problems { format!("  {:>10}", number(line.of_optimal, 3)) } else { String::new() }
         ))?;
     }
     data.line("medians over the attempts that have a path")
 }
 
-/// A row for each attempt; a path's columns are empty where there is none.
-fn csv(task: &Task, rows: &[Row]) -> String {
+/// A row for each attempt; a path's columns are empty where there is none. A scenario's problems have three more.
+fn csv(task: &Task, rows: &[Row], is_of_problems: bool) -> String {
     let head = "planner,seed,solved,time_s,iterations,samples,edges,free";
-    let mut text = format!("{head},length_{},clearance_m,reason,robot,world,start,goal\n", unit(&task.robot));
+    let mut text = format!("{head},length_{},clearance_m,reason,robot,world,start,goal", unit(&task.robot));
+    text.push_str(if is_of_problems { ",problem,bucket,optimal_m\n" } else { "\n" });
     let numbers = |q: &AnyConfiguration| {
         let numbers: Vec<String> = q.coordinates().iter().map(f64::to_string).collect();
         format!("\"{}\"", numbers.join(","))
     };
     let (robot, world) = (csv_cell(&task.name), csv_cell(&task.world.name));
-    let problem = format!("{robot},{world},{},{}", numbers(&task.start), numbers(&task.goal));
-    for Row { planner, seed, effort, seconds, path } in rows {
+    for Row { case, planner, seed, effort, seconds, path } in rows {
+        let [start, goal] = &case.ends;
+        let mut problem = format!("{robot},{world},{},{}", numbers(start), numbers(goal));
+        if let Some(KnownProblem { number, bucket, optimal }) = case.problem {
+            _ = write!(problem, ",{number},{bucket},{optimal}");
+        }
         let Effort { iterations, samples, edges, free } = effort;
         let name = planner.id();
         let (solved, length, clearance, reason) = match path {

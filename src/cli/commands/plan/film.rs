@@ -1,7 +1,5 @@
 //! The film of a planner's growth: workspace and configuration space side by side, iteration after iteration.
 
-use std::sync::Arc;
-
 use motion_lab::capture::{Paper, PlanOutcome, slides};
 use motion_lab::collision::Checker;
 use motion_lab::cspace::{CellMap, Slice};
@@ -57,7 +55,7 @@ pub fn write(
 
 /// The slice of the configuration space through the start, its cells judged; `None` where there is no such slice.
 pub fn background(task: &Task) -> Option<CellMap> {
-    let checker = Checker::new(Arc::clone(&task.scene), task.planned());
+    let checker = Checker::new(task.planned_scene(), task.planned());
     let mut map = CellMap::new(Slice::through(&checker, &task.start).ok()?, FINEST);
     map.refine(u32::MAX);
     Some(map)

@@ -4,6 +4,7 @@
 mod advice;
 mod answer;
 mod args;
+mod cases;
 mod compare;
 pub mod drawing;
 mod exact;
@@ -16,8 +17,7 @@ pub mod task;
 use std::time::Instant;
 
 use motion_lab::capture::{CaptureForm, PlanOutcome};
-use motion_lab::planning::Bounds;
-use motion_lab::plans::{PathFile, PlanAttempt, PlannerName, Task};
+use motion_lab::plans::{MAX_CLEARANCE, PathFile, PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
 use crate::cli::support::output::write_file;
@@ -28,6 +28,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 use advice::in_words;
 use answer::PlanAnswer;
 pub use args::PlanArgs;
+use cases::Cases;
 pub use rounds::solve;
 use targets::PlanTargets;
 
@@ -37,15 +38,22 @@ impl PlanArgs {
         if !(0.0..=1.0).contains(&self.tube) {
             return Err(Failure::usage(format!("--tube {}: it must be from 0 to 1 m", self.tube), "Change --tube."));
         }
-        let (world, from) = (self.world.as_deref(), self.from.as_ref());
-        let task = task::find(&self.robot, world, from, &self.to, self.tube)?;
-        let task = Task { checker: self.checker, ..task };
+        if !(0.0..=MAX_CLEARANCE).contains(&self.clearance) {
+            let reason = format!("--clearance {}: it must be from 0 to {MAX_CLEARANCE} m", self.clearance);
+            return Err(Failure::usage(reason, "Change --clearance."));
+        }
+        if !self.checker.proves() && self.clearance > 0.0 {
+            let reason = format!("a clearance that is kept is proven, and {} proves nothing", self.checker.id());
+            return Err(Failure::usage(reason, "Leave out --checker, or --clearance."));
+        }
+        let Cases { task, all } = Cases::of(&self)?;
+        let task = Task { checker: self.checker, clearance: self.clearance, ..task };
         if !task.checker.proves() && (self.script.is_some() || self.record.is_some()) {
             let reason = format!("a script plays a path that is proven, and {} proves nothing", task.checker.id());
             return Err(Failure::usage(reason, "Leave out --checker, or --script and --record."));
         }
         if !self.compare.is_empty() {
-            return compare::compare(&self, &task, data);
+            return compare::compare(&self, task, &all, data);
         }
         let targets = PlanTargets::of(&self)?;
         let name = self.planner.unwrap_or(PlannerName::default_for(&task.robot));
@@ -56,13 +64,8 @@ impl PlanArgs {
         };
         let progress = CommandProgress::uncounted("iterations");
         // Ctrl-C ends the process while nothing is written
-        let Some(solved) = solve(attempt.as_mut(), self.bound(name), |done| progress.at(done)) else {
+        let Some(solved) = solve(attempt.as_mut(), name, self.iterations, |done| progress.at(done)) else {
             return Ok(Outcome::Stopped);
-        };
-        // a bound that somebody gives is how long a path may be shortened
-        let solved = match self.iterations {
-            Some(_) => solved.and_then(|()| attempt.improve(&Bounds::of_iterations(self.bound(name)))),
-            None => solved,
         };
         drop(progress);
         let seconds = begun.elapsed().as_secs_f64();
@@ -74,11 +77,6 @@ impl PlanArgs {
                 self.none(&answer.after(attempt.effort()), data)
             }
         }
-    }
-
-    /// The greatest number of iterations of a planner.
-    fn bound(&self, planner: PlannerName) -> u64 {
-        self.iterations.unwrap_or(planner.iterations())
     }
 
     /// Says that there is no path.

@@ -10,7 +10,7 @@ use crate::cli::Failure;
 use crate::cli::support::console::note;
 use crate::cli::support::input::{read_text, shown};
 use crate::cli::support::words::parse_script;
-use crate::cli::support::world_source::find_world_beside;
+use crate::cli::support::world_source::{find_world_beside, read_scenario};
 
 /// The study in a file. Files that it names lie where it says, seen from its own folder.
 pub fn study(path: &Path) -> Result<Study, Failure> {
@@ -39,6 +39,12 @@ pub fn study(path: &Path) -> Result<Study, Failure> {
             |reason| Failure::input(reason, "Correct it there. `motion-lab plan --help` says what each does.");
         named(name).map_err(|reason| named_at(name, unknown(reason)))?;
     }
+    let mut scenarios = BTreeMap::new();
+    for name in file.scenario_names() {
+        let scenario = read_scenario(&path.parent().unwrap_or(Path::new("")).join(name));
+        scenarios.insert(name.to_owned(), scenario.map_err(|failure| named_at(name, failure))?);
+    }
+    let file = file.with_scenarios(scenarios);
     let study = file.with(&worlds, &scripts).map_err(refused)?;
     study.turns().into_iter().for_each(|turns| note(format!("{}: {turns}", shown(path))));
     Ok(study)

@@ -71,7 +71,7 @@ fn planned_script(
     let world = world.ok_or_else(|| "no robot takes part in this run".to_owned())?;
     let (task, name) = task(world, planning)?;
     let mut attempt = task.attempt(name, seed)?;
-    let solved = solve(attempt.as_mut(), planning.iterations.unwrap_or(name.iterations()), |_| {});
+    let solved = solve(attempt.as_mut(), name, planning.iterations, |_| {});
     let Effort { iterations, edges, .. } = attempt.effort();
     *planned = PlanningResult { iterations, edges, path: None };
     solved.ok_or(Why::Stopped)??;
@@ -104,7 +104,7 @@ fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), Strin
         None => PlannerName::default_for(&robot),
     };
     let task = Task::new(resident.name.as_str(), robot, world.clone(), [start, goal]);
-    Ok((Task { tube: planning.tube, ..task }, name))
+    Ok((Task { tube: planning.tube, clearance: planning.clearance, ..task }, name))
 }
 
 /// The planner of this name; else what there is.

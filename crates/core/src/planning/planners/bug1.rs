@@ -24,9 +24,10 @@ enum Bug1Phase {
 /// Bug1 (Lumelsky and Stepanov, 1987) for a disc that knows where it is and feels the boundary nearest to it.
 ///
 /// It heads for the goal. At an obstacle it goes all the way round, with the boundary at the right hand, returns by the
-/// shorter way to where it was nearest to the goal, and leaves for the goal. If the goal then lies behind the obstacle,
-/// it can't be reached: [`NoPath::Enclosed`]. "The obstacle" is all that has no gap wider than what it keeps. The
-/// lab's planner `bug1-sensor` does the same by a range sensor.
+/// shorter way to where it was nearest to the goal, and leaves for the goal. "The obstacle" is all that has no gap for
+/// a disc that keeps its clearance, half its radius. If the goal then lies behind the obstacle, it keeps half as much
+/// and begins again; a disc that keeps a sixteenth of its radius and finds no gap ends, [`NoPath::Enclosed`]. The lab's
+/// planner `bug1-sensor` walks so by a range sensor, and keeps what it keeps.
 ///
 /// An iteration is one step. A robot that is not a disc gets [`NoPath::Unsuited`] from [`Bug1::try_new`].
 #[derive(Clone, Debug)]
@@ -36,7 +37,7 @@ pub struct Bug1<R: Robot> {
 }
 
 impl<R: Robot<Configuration: Chart>> Bug1<R> {
-    /// The planner; it keeps half its radius from a boundary that it follows.
+    /// The planner; it keeps half its radius from a boundary that it follows, less where that leads nowhere.
     ///
     /// # Errors
     /// [`NoPath::Unsuited`] for a robot that is not a disc.
@@ -54,7 +55,7 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
                     None
                 }
                 Headed::Arrived => self.walker.arrived(),
-                Headed::Blocked => Some(NoPath::Enclosed { kept: self.walker.keep }),
+                Headed::Blocked => self.walker.keep_half(),
             },
             Bug1Phase::Head => match self.walker.head() {
                 Headed::Moved => None,
@@ -79,7 +80,7 @@ impl<R: Robot<Configuration: Chart>> Bug1<R> {
                     self.phase = Bug1Phase::Return { nodes: self.walker.way_back(from, node) };
                     return None;
                 }
-                self.phase = Bug1Phase::Round { from };
+                self.phase = Bug1Phase::Round { from: self.walker.beginning(from) };
                 self.follow()
             }
             Bug1Phase::Return { mut nodes } => match nodes.pop() {

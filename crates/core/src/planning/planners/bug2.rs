@@ -34,9 +34,10 @@ enum Bug2Phase {
 /// It walks in steps, which may go past a place to leave from: where a boundary crosses the line twice within a step,
 /// or is left by less than the clearance that it keeps. Bug2 alone would end there without a path. So if it comes all
 /// the way round, it does as [`Bug1`](super::Bug1): it returns to where it was nearest to the goal, leaves there, and
-/// takes the line from there on. Only if the goal lies behind the obstacle even there it ends,
-/// [`NoPath::Enclosed`]. "The obstacle" is all that has no gap wider than what it keeps. So it finds a path wherever
-/// Bug1 finds one, and where Bug2 finds one by its own rule, that one.
+/// takes the line from there on. "The obstacle" is all that has no gap for a disc that keeps its clearance, half its
+/// radius. Where the goal lies behind the obstacle even there, it keeps half as much and begins again. Only a disc that
+/// keeps a sixteenth of its radius and finds no gap ends, [`NoPath::Enclosed`]. So it finds a path wherever Bug1 finds
+/// one, which is wherever there is one of that clearance, and where Bug2 finds one by its own rule, that one.
 ///
 /// An iteration is one step. A robot that is not a disc gets [`NoPath::Unsuited`] from [`Bug2::try_new`].
 #[derive(Clone, Debug)]
@@ -48,7 +49,7 @@ pub struct Bug2<R: Robot> {
 }
 
 impl<R: Robot<Configuration: Chart>> Bug2<R> {
-    /// The planner; it keeps half its radius from a boundary that it follows.
+    /// The planner; it keeps half its radius from a boundary that it follows, less where that leads nowhere.
     ///
     /// # Errors
     /// [`NoPath::Unsuited`] for a robot that is not a disc.
@@ -88,7 +89,7 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
                     None
                 }
                 Headed::Arrived => self.walker.arrived(),
-                Headed::Blocked => Some(NoPath::Enclosed { kept: self.walker.keep }),
+                Headed::Blocked => self.walker.keep_half(),
             },
         }
     }
@@ -109,7 +110,10 @@ impl<R: Robot<Configuration: Chart>> Bug2<R> {
         let from = from.or_else(|| (steps >= SETTLE).then(|| self.walker.node()));
         self.phase = match from.filter(|from| self.walker.is_back(*from)) {
             Some(from) => Bug2Phase::Return { nodes: self.walker.way_back(from, self.walker.node()) },
-            None => Bug2Phase::Follow { hit, steps: steps + 1, from },
+            None => {
+                let from = from.map(|from| self.walker.beginning(from));
+                Bug2Phase::Follow { hit, steps: steps + 1, from }
+            }
         };
         None
     }

@@ -7,16 +7,12 @@ use crate::collision::{Problem, Scene};
 use crate::configuration::{Chart, Configuration, Coordinates};
 use crate::geometry::{Footprint, Placed, Point2, Vector2};
 use crate::num::{cos, sin_cos, sqrt};
-use crate::planning::{NoPath, Planner, Search};
+use crate::planning::{MARGIN, NoPath, Planner, Search};
 use crate::robots::Robot;
 
 /// The number of directions about a vertex in which the grown obstacle has corners. A path about a corner is longer
 /// than the arc by at most two per cent.
 const DIRECTIONS: u32 = 16;
-
-/// How far the robot keeps from an obstacle on its way about a corner, metres: far above the rounding of a clearance,
-/// so what is proven of the way is a number that a table shows.
-const MARGIN: f64 = 1e-3;
 
 /// The visibility graph (Lozano-Perez and Wesley, 1979) of a robot that is a disc, searched by A*.
 ///

@@ -24,6 +24,12 @@ const HALVINGS: u32 = 6;
 /// The clearance that the usual walker keeps from a boundary, as a share of its radius.
 const KEEP: f64 = 0.5;
 
+/// The least that it keeps, once there is no gap for one that keeps more.
+const LEAST_KEEP: f64 = 0.0625;
+
+/// The number of steps after which the first round that is not closed begins again.
+const LONGEST_ROUND: usize = 1 << 14;
+
 /// The number of steps along a boundary in which the walker comes to the clearance that it keeps.
 pub(super) const SETTLE: usize = 16;
 
@@ -33,6 +39,10 @@ pub(super) struct Walker<R: Robot> {
     pub(super) search: Search<R>,
     /// The clearance that it keeps from a boundary that it follows, metres.
     pub(super) keep: f64,
+    /// The least that it may keep, metres.
+    least_keep: f64,
+    /// The number of steps after which a round that is not closed begins again where the walker is.
+    longest_round: usize,
     /// The direction in which it follows a boundary, a unit vector.
     heading: Vector2,
 }
@@ -59,8 +69,24 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         if part.placed().core().len() != 1 {
             return None;
         }
-        let (search, keep) = (Search::from_start(problem.clone()), KEEP * part.placed().radius());
-        Some(Walker { search, keep, heading: Vector2::x() })
+        let (search, radius) = (Search::from_start(problem.clone()), part.placed().radius());
+        Some(Walker {
+            search,
+            keep: KEEP * radius,
+            least_keep: LEAST_KEEP * radius,
+            longest_round: LONGEST_ROUND,
+            heading: Vector2::x(),
+        })
+    }
+
+    /// Keeps half as much from now on, because the goal lies behind an obstacle without a gap for one that keeps more.
+    /// The reason why there is no path where that would be less than the least.
+    pub(super) fn keep_half(&mut self) -> Option<NoPath> {
+        if self.keep <= self.least_keep {
+            return Some(NoPath::Enclosed { kept: self.keep });
+        }
+        self.keep *= 0.5;
+        None
     }
 
     /// The number of the node at which it is.
@@ -215,6 +241,16 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         } else {
             (leave..end).collect()
         }
+    }
+
+    /// Where a round begins that has begun at node `from`: here, once it has gone on for too long, and the next one may
+    /// be twice as long (Brent's way to find a cycle). A round may begin at a place that it does not come back to.
+    pub(super) fn beginning(&mut self, from: usize) -> usize {
+        if self.node() - from <= self.longest_round {
+            return from;
+        }
+        self.longest_round *= 2;
+        self.node()
     }
 
     /// Whether a round that began at node `from` is closed where it is.
