@@ -125,6 +125,7 @@ fn an_arm_observes_both_configurations_what_is_left_and_its_clearance() {
     // it came 0.05 rad nearer by each joint
     let before = T2::new(0.3, 3.0);
     let now = T2::new(0.25, 3.05);
-    let right = 0.3_f64.hypot(std::f64::consts::PI - 3.0) - 0.25_f64.hypot(std::f64::consts::PI - 3.05);
+    let far = |x: f64, y: f64| (x * x + y * y).sqrt();
+    let right = far(0.3, std::f64::consts::PI - 3.0) - far(0.25, std::f64::consts::PI - 3.05);
     assert!((task.judge(&goal, &at(&before, &now)).reward - right).abs() < 1e-9);
 }

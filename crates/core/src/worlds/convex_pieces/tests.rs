@@ -158,7 +158,8 @@ fn what_is_remembered_changes_no_piece() {
         let n = 10 + s.below(60) as usize;
         let size = if round % 3 == 0 { 0.004 } else { 1.0 };
         let angle = |k: usize| std::f64::consts::TAU * k as f64 / n as f64;
-        let radius = |k: usize, s: &mut Stream| size * (if k % 2 == 0 { 2.0 } else { 1.0 } + s.uniform(0.0, 0.05));
+        let radius =
+            |k: usize, s: &mut Stream| size * (if k.is_multiple_of(2) { 2.0 } else { 1.0 } + s.uniform(0.0, 0.05));
         let vertex = |k: usize, r: f64| Point2::new(r * num::cos(angle(k)), r * num::sin(angle(k)));
         let outline: Vec<Point2> = (0..n).map(|k| vertex(k, radius(k, &mut s))).collect();
         let triangles = triangulate(&outline);
