@@ -56,12 +56,14 @@ pub enum PathError {
     #[error("leg {0} does not begin where the one before ends")]
     Broken(usize),
     /// A leg that is not proven free.
-    #[error("leg {leg} is not proven free")]
+    #[error("leg {leg} is not proven free{}", why(verdict, obstacle.as_deref()))]
     NotFree {
         /// The number of the leg, from 0.
         leg: usize,
         /// What is known of it.
         verdict: EdgeVerdict,
+        /// The name of the obstacle that it hits; `None` where it hits none.
+        obstacle: Option<String>,
     },
     /// A leg whose certificate the verifier refuses.
     #[error("leg {leg}: {source}")]
@@ -96,6 +98,15 @@ pub enum PathError {
     Missing,
 }
 
+/// Why a leg is not free, as far as its verdict says.
+fn why(verdict: &EdgeVerdict, obstacle: Option<&str>) -> String {
+    match (verdict, obstacle) {
+        (EdgeVerdict::Hit { .. }, Some(name)) => format!(": it hits {name}"),
+        (EdgeVerdict::Hit { .. }, None) => ": it leaves the robot's own limits".to_owned(),
+        _ => String::new(),
+    }
+}
+
 impl<M: Motion> CertifiedPath<M> {
     /// The path of these motions, with a certificate for each.
     ///
@@ -113,7 +124,11 @@ impl<M: Motion> CertifiedPath<M> {
             let mut certificate = Certificate::new();
             let verdict = checker.motion_certified(&motion, &mut certificate);
             if !verdict.is_free() {
-                return Err(PathError::NotFree { leg, verdict });
+                let EdgeVerdict::Hit { by, .. } = verdict else {
+                    return Err(PathError::NotFree { leg, verdict, obstacle: None });
+                };
+                let obstacle = by.obstacle().and_then(|id| checker.scene().obstacle_name(id)).map(str::to_owned);
+                return Err(PathError::NotFree { leg, verdict, obstacle });
             }
             legs.push(Leg { motion, certificate });
         }

@@ -52,7 +52,7 @@ fn a_planner_that_asks_it_goes_through_the_post() {
     let path = solve_unproven(&mut RrtConnect::new(problem(2005)), &Bounds::default()).unwrap();
     assert_eq!(path.motions().len(), 1, "straight");
     let refused = path.certified(&exact()).unwrap_err();
-    let PathError::NotFree { leg: 0, verdict: EdgeVerdict::Hit { contact_at, .. } } = refused else {
+    let PathError::NotFree { leg: 0, verdict: EdgeVerdict::Hit { contact_at, .. }, .. } = refused else {
         panic!("{refused}")
     };
     figure(&path.motions()[0], contact_at);

@@ -15,7 +15,8 @@ fn a_path_is_proven_or_refused() {
     let path = |corners: &[R2]| CertifiedPath::through(&checker, corners);
     assert_eq!(path(&[]).unwrap_err(), PathError::Empty);
     let through = path(&[at(-1.0, 0.0), at(-0.5, 0.0), at(0.5, 0.0)]).unwrap_err();
-    assert!(matches!(through, PathError::NotFree { leg: 1, verdict: EdgeVerdict::Hit { .. } }), "{through:?}");
+    assert!(matches!(through, PathError::NotFree { leg: 1, verdict: EdgeVerdict::Hit { .. }, .. }), "{through:?}");
+    assert_eq!(through.to_string(), "leg 1 is not proven free: it hits wall 0");
     let nan = path(&[at(-1.0, 0.0), at(f64::NAN, 0.0)]).unwrap_err();
     assert!(matches!(nan, PathError::Configuration { corner: 0, .. }), "{nan:?}");
     let edge = |a: R2, b: R2| checker.robot().edge(&a, &b).unwrap();

@@ -182,7 +182,7 @@ impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration
     /// The motion of a path that nobody has proven, where the exact scene says that it hits.
     fn hit(&self) -> Option<Rejected> {
         let (path, checker) = (self.unproven.as_ref()?, self.planner.problem().checker());
-        let Err(PathError::NotFree { leg, verdict }) = path.certified(checker) else { return None };
+        let Err(PathError::NotFree { leg, verdict, .. }) = path.certified(checker) else { return None };
         let (motion, EdgeVerdict::Hit { contact_at, .. }) = (&path.motions()[leg], verdict) else { return None };
         let at = motion.at(contact_at);
         let witness = checker.scene().witness(&motion.footprint_at(contact_at));

@@ -31,7 +31,7 @@ impl ExactAnswer {
     pub fn of(scene: &Scene, judged: Result<f64, PathError>) -> Self {
         match judged {
             Ok(clearance) => ExactAnswer::Free { edge: "free", clearance: JsonNumber(clearance) },
-            Err(PathError::NotFree { leg, verdict }) => ExactAnswer::Leg { leg, verdict: edge(scene, verdict) },
+            Err(PathError::NotFree { leg, verdict, .. }) => ExactAnswer::Leg { leg, verdict: edge(scene, verdict) },
             Err(other) => ExactAnswer::Refused { reason: other.to_string() },
         }
     }
