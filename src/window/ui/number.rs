@@ -1,4 +1,5 @@
-//! Numbers as a reader types them: `0.7854`, `pi/4`, `−3π/4`, `2/3`, `45deg`; and why one that is typed is not entered as it is.
+//! Numbers as a reader types them: `0.7854`, `pi/4`, `−3π/4`, `2/3`, `45deg`; and why one that is typed is not entered
+//! as it is.
 
 use std::cell::RefCell;
 use std::f64::consts::PI;
@@ -11,8 +12,8 @@ use motion_lab_core::num::wrap;
 use motion_lab_core::picture::true_minus;
 
 /// The number that a text stands for: a decimal number, pi, or a number times pi, over a decimal number if one follows;
-/// or a decimal number of degrees, with `deg` or a degree sign behind it. `None` for any other text, and for what is not
-/// finite.
+/// or a decimal number of degrees, with `deg` or a degree sign behind it. `None` for any other text, and for what is
+/// not finite.
 pub fn number(text: &str) -> Option<WrittenCoordinate> {
     let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
     let text = text.replace('\u{2212}', "-").replace('\u{3c0}', "pi").replace('\u{b0}', "deg").to_lowercase();
@@ -72,8 +73,8 @@ impl TypedKind {
 
 /// What is typed into a number field: its parser, which egui calls once the text is entered.
 ///
-/// An angle may be in degrees; one on a circle is wrapped. Any other number is clamped by the field to its range. Escape
-/// leaves the number as it was.
+/// An angle may be in degrees; one on a circle is wrapped. Any other number is clamped by the field to its range.
+/// Escape leaves the number as it was.
 pub struct NumberInput {
     range: RangeInclusive<f64>,
     takes: TypedKind,

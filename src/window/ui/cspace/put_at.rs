@@ -75,8 +75,8 @@ pub fn turn_to(
 }
 
 /// Asks that a robot have these coordinates by the next tick. Where it would overlap or touch an obstacle or another
-/// robot, be outside its world, or fold beyond its limits, it asks nothing, and returns the robot's footprint there. Asks nothing for what is
-/// no configuration of one of the lab's robots.
+/// robot, be outside its world, or fold beyond its limits, it asks nothing, and returns the robot's footprint there.
+/// Asks nothing for what is no configuration of one of the lab's robots.
 fn put(
     cockpit: &Cockpit,
     robot: &CockpitRobot,

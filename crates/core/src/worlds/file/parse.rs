@@ -82,8 +82,8 @@ impl World {
     }
 }
 
-/// What the writer of a world file may have meant by angles of more than a turn, a sentence for each place, and for each
-/// start, car and sensor of a robot, that has such an angle. None of a text that is no world file.
+/// What the writer of a world file may have meant by angles of more than a turn, a sentence for each place, and for
+/// each start, car and sensor of a robot, that has such an angle. None of a text that is no world file.
 pub fn turns(text: &str) -> Vec<String> {
     let Ok(file) = (FileText { file: "", text }).read() else { return Vec::new() };
     let places = file.places.iter().filter_map(|place| {
