@@ -29,8 +29,8 @@ impl AssignmentFile {
     /// Reads an assignment file. Errors call it `file`.
     ///
     /// # Errors
-    /// [`AssignmentError`] names file, line, column and item, for invalid RON, another version, or an unknown or missing
-    /// field.
+    /// [`AssignmentError`] names file, line, column and item, for invalid RON, another version, or an unknown or
+    /// missing field.
     pub fn parse(file: &str, text: &str) -> Result<Self, AssignmentError> {
         let read: Result<AssignmentText, _> = options().from_str(text);
         // the version comes first: the rest of another version's file may look different
