@@ -6,10 +6,13 @@ use std::process::ExitCode;
 
 use clap::FromArgMatches;
 
-use cli::{Cli, Data, Failure, Outcome, program, say};
+use cli::{Cli, Data, Failure, Outcome, exit, program, say};
 
 fn main() -> ExitCode {
-    let cli = Cli::from_arg_matches(&program().get_matches()).unwrap_or_else(|error| error.exit());
+    let cli = program()
+        .try_get_matches()
+        .and_then(|given| Cli::from_arg_matches(&given))
+        .unwrap_or_else(|error| exit(&error));
     let mut data = Data::stdout();
     let ended = cli.run(&mut data).and_then(|outcome| data.finish().map(|()| outcome));
     ExitCode::from(match ended {

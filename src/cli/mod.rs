@@ -1,8 +1,10 @@
 //! The command line: one command a file. Data goes to standard output, messages to standard error.
 
 mod commands;
+mod help;
 mod support;
 
+pub use help::exit;
 pub use support::console::{Data, say};
 pub use support::end::{Failure, Outcome};
 

@@ -4,12 +4,13 @@ use bevy::app::App;
 use ron::value::RawValue;
 
 use super::added_kinds::AddedKinds;
-use super::assignment_text::{AssignmentText, AssignmentVersion, Goal, Limits, item_of, items, line_of, options};
+use super::assignment_text::{AssignmentText, AssignmentVersion, Goal, Limits, item_of, items, options, place_of};
 use super::seeds::Seeds;
 use super::{AssignmentError, AssignmentProblem, MAX_SEEDS, Points, Stay, When};
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{Coordinates, RobotKind, WrittenCoordinate};
 use motion_lab_core::random::Seed;
+use motion_lab_core::text_position::Position;
 use motion_lab_core::worlds::{Resident, World, begin_of, ron_in_words};
 use motion_lab_sim::recording::{Recorder, RunError, Verification, verify_with_robots};
 use motion_lab_sim::run::{Log, Script};
@@ -28,7 +29,8 @@ impl AssignmentFile {
     /// Reads an assignment file. Errors call it `file`.
     ///
     /// # Errors
-    /// [`AssignmentError`] names file, line and item, for invalid RON, another version, or an unknown or missing field.
+    /// [`AssignmentError`] names file, line, column and item, for invalid RON, another version, or an unknown or
+    /// missing field.
     pub fn parse(file: &str, text: &str) -> Result<Self, AssignmentError> {
         let read: Result<AssignmentText, _> = options().from_str(text);
         // the version comes first: the rest of another version's file may look different
@@ -36,14 +38,16 @@ impl AssignmentFile {
             Ok(read) => read.version,
             Err(_) => ron::from_str(text).map_or(1, |AssignmentVersion { version }| version),
         };
-        let error =
-            |line, item, problem| AssignmentError { file: file.to_owned(), line, item, problem: Box::new(problem) };
+        let error = |Position { line, column }, item, problem| {
+            let (file, problem) = (file.to_owned(), Box::new(problem));
+            AssignmentError { file, line, column, item, problem }
+        };
         if version != 1 {
-            return Err(error(line_of(text, "version"), "version", AssignmentProblem::Version(version)));
+            return Err(error(place_of(text, "version"), "version", AssignmentProblem::Version(version)));
         }
         let read = read.map_err(|e| {
             let problem = AssignmentProblem::Syntax(ron_in_words(text, &e));
-            error(begin_of(&e).line, item_of(text, &e), problem)
+            error(begin_of(&e), item_of(text, &e), problem)
         })?;
         Ok(AssignmentFile { file: file.to_owned(), source: text.to_owned(), text: read })
     }
@@ -60,11 +64,11 @@ impl AssignmentFile {
         let Some(about) = about else { return Vec::new() };
         let of = |item: &'static str, written: &[WrittenCoordinate]| {
             let turns: Vec<String> = WrittenCoordinate::all_turns(written, about.lengths).collect();
-            turns
-                .into_iter()
-                .map(move |turns| format!("{}:{}: {item}: {turns}", self.file, line_of(&self.source, item)))
+            let Position { line, column } = place_of(&self.source, item);
+            turns.into_iter().map(move |turns| format!("{}:{line}:{column}: {item}: {turns}", self.file))
         };
-        of("start", start.as_deref().unwrap_or_default()).chain(of("goal", &goal.at)).collect()
+        let start = start.as_deref().unwrap_or_default();
+        of("start", start).chain(of("goal", &goal.at)).chain(of("goal", &goal.within)).collect()
     }
 
     /// The assignment in the world it names.
@@ -94,11 +98,9 @@ impl AssignmentFile {
     fn with_kinds(&self, mut world: World, added: AddedKinds) -> Result<Assignment, AssignmentError> {
         let AssignmentText { robot, start, goal, stay, limits, points, set_trailer, seeds: Seeds(seeds), .. } =
             &self.text;
-        let error = |item: &'static str, problem: AssignmentProblem| AssignmentError {
-            file: self.file.clone(),
-            line: line_of(&self.source, item),
-            item,
-            problem: Box::new(problem),
+        let error = |item: &'static str, problem: AssignmentProblem| {
+            let Position { line, column } = place_of(&self.source, item);
+            AssignmentError { file: self.file.clone(), line, column, item, problem: Box::new(problem) }
         };
         let Some(number) = world.robots.iter().position(|r| r.name == *robot) else {
             let names: Vec<&str> = world.robots.iter().map(|r| r.name.as_str()).collect();

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::seeds::Seeds;
 use super::{Points, Stay};
 use motion_lab_core::configuration::{WrittenCoordinate, WrittenCoordinateError};
-use motion_lab_core::text_position::{byte_at, line_at, offset_of};
+use motion_lab_core::text_position::{Position, byte_at, offset_of, position_at};
 use motion_lab_core::worlds::begin_of;
 
 /// The configuration to reach, with tolerances.
@@ -137,10 +137,10 @@ pub(super) fn items(text: &str) -> impl Iterator<Item = (&'static str, &RawValue
     items.into_iter().flatten().filter_map(|(item, part)| Some((item, part?)))
 }
 
-/// The line in which an item begins, from 1; line 1 for a missing item.
-pub(super) fn line_of(text: &str, item: &str) -> usize {
+/// Where an item begins; the beginning of the text for a missing item.
+pub(super) fn place_of(text: &str, item: &str) -> Position {
     let part = items(text).find(|(name, _)| *name == item);
-    part.map_or(1, |(_, part)| line_at(text, offset_of(text, part.trim().get_ron())))
+    position_at(text, part.map_or(0, |(_, part)| offset_of(text, part.trim().get_ron())))
 }
 
 /// The item in which the reader found an error; empty where it is in none.

@@ -8,15 +8,17 @@ use motion_lab_sim::tour::MAX_TICKS;
 /// Largest number of seeds in an assignment.
 pub const MAX_SEEDS: usize = 10_000;
 
-/// Why an assignment file is refused, with the line and the item.
+/// Why an assignment file is refused, with the line, the column and the item.
 ///
-/// Prints as `exam.ron:5: goal: 2 coordinates, 3 tolerances: there must be one for each`.
+/// Prints as `exam.ron:5:11: goal: 2 coordinates, 3 tolerances: there must be one for each`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssignmentError {
     /// The file, as the caller named it.
     pub file: String,
     /// The line, from 1: where the item begins, or where reading stopped.
     pub line: usize,
+    /// The column of that line, from 1, in characters.
+    pub column: usize,
     /// The item; empty where the error is in none of them.
     pub item: &'static str,
     /// The reason.
@@ -25,7 +27,7 @@ pub struct AssignmentError {
 
 impl fmt::Display for AssignmentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: ", self.file, self.line)?;
+        write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
         if !self.item.is_empty() {
             write!(f, "{}: ", self.item)?;
         }

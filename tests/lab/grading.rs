@@ -68,9 +68,9 @@ fn its_own_footprint_decides_where_start_and_goal_may_be() {
     let touched = |x: &str| exam(&EXAM.replace("[11, 2", &format!("[{x}, 2")));
     assert!(touched("13.69").is_ok());
     let error = touched("13.71").unwrap_err();
-    assert_eq!(error.to_string(), "exam.ron:1: start: there the robot touches the east curb");
+    assert_eq!(error.to_string(), "exam.ron:1:61: start: there the robot touches the east curb");
     let error = exam(&EXAM.replace("at: [10, 2", "at: [1.49, 2")).unwrap_err();
-    assert_eq!(error.to_string(), "exam.ron:2: goal: there the robot touches the west curb");
+    assert_eq!(error.to_string(), "exam.ron:2:11: goal: there the robot touches the west curb");
 }
 
 /// The train's run at this seed, driven by this script from the assignment's start.
@@ -123,7 +123,7 @@ fn only_a_kind_that_is_said_to_drive_has_reversals() {
     let parsed = |text: &str| AssignmentFile::parse("exam.ron", text).unwrap();
     for add in [undescribed, barges] {
         let error = parsed(EXAM).in_world_with_robots(lot(ABOUT.name), add).unwrap_err();
-        assert_eq!(error.to_string(), "exam.ron:3: limits: only a robot that drives has a direction to reverse");
+        assert_eq!(error.to_string(), "exam.ron:3:13: limits: only a robot that drives has a direction to reverse");
     }
     // undescribed, its headings are compared as numbers, and 3.14 is far from -3.14
     let text = EXAM.replace(", reversals: 1", "");

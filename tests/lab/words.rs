@@ -88,40 +88,40 @@ fn no_message_has_the_words_of_the_language_this_program_is_written_in() {
 #[test]
 fn mistakes_in_assignments_and_scripts_are_named_with_their_item() {
     for (from, to, said) in [
-        ("    limits: (ticks: 200, contacts: 0, reversals: 3),\n", "", "8: the field `limits` is missing"),
+        ("    limits: (ticks: 200, contacts: 0, reversals: 3),\n", "", "8:1: the field `limits` is missing"),
         (
             "    points: (goal: 6, contacts: 2, reversals: 2),\n    seeds: \"0..10\",\n)",
             "    points: (goal: 6))",
-            "7: the field `seeds` is missing",
+            "7:22: the field `seeds` is missing",
         ),
         (
             "robot:",
             "robots:",
-            "3: there is no field `robots` here: the fields are version, world, robot, start, goal, stay, limits, points, set_trailer or seeds",
+            "3:31: there is no field `robots` here: the fields are version, world, robot, start, goal, stay, limits, points, set_trailer or seeds",
         ),
-        ("at: [7.5, 2.5, 0], ", "", "4: goal: the field `at` is missing"),
-        ("within", "width", "4: goal: there is no field `width` here: the fields are at, within or ticks"),
-        ("ticks: 200", "ticks: \"200\"", "6: limits: a whole number belongs here"),
-        ("ticks: 200", "ticks: 2.5", "6: limits: a whole number belongs here"),
-        ("\"lot\"", "lot", "3: world: a text in quotes belongs here"),
-        ("start: [6.5, 2.5, 0]", "start: 3", "3: start: a list in `[` and `]` belongs here"),
-        ("at: end", "at: never", "5: stay: there is no `never` here: write any or end"),
-        ("at: end", "at: \"end\"", "5: stay: a name without quotes belongs here"),
-        ("(hold: 20, at: end)", "end", "5: stay: \"end\" stands where a list of fields in `(` and `)` belongs"),
-        ("(goal: 6, contacts: 2, reversals: 2)", "10", "7: points: a list of fields in `(` and `)` belongs here"),
+        ("at: [7.5, 2.5, 0], ", "", "4:35: goal: the field `at` is missing"),
+        ("within", "width", "4:31: goal: there is no field `width` here: the fields are at, within or ticks"),
+        ("ticks: 200", "ticks: \"200\"", "6:20: limits: a whole number belongs here"),
+        ("ticks: 200", "ticks: 2.5", "6:22: limits: a whole number belongs here"),
+        ("\"lot\"", "lot", "3:23: world: a text in quotes belongs here"),
+        ("start: [6.5, 2.5, 0]", "start: 3", "3:53: start: a list in `[` and `]` belongs here"),
+        ("at: end", "at: never", "5:26: stay: there is no `never` here: write any or end"),
+        ("at: end", "at: \"end\"", "5:26: stay: a name without quotes belongs here"),
+        ("(hold: 20, at: end)", "end", "5:11: stay: \"end\" stands where a list of fields in `(` and `)` belongs"),
+        ("(goal: 6, contacts: 2, reversals: 2)", "10", "7:12: points: a list of fields in `(` and `)` belongs here"),
         (
             "\"0..10\"",
             "7",
-            "8: seeds: a list of seeds, as [1, 2005], or of ranges in quotes, as \"0..100\", belongs here",
+            "8:12: seeds: a list of seeds, as [1, 2005], or of ranges in quotes, as \"0..100\", belongs here",
         ),
         (
             "\"0..10\"",
             "all",
-            "8: seeds: a list of seeds, as [1, 2005], or of ranges in quotes, as \"0..100\", belongs here",
+            "8:15: seeds: a list of seeds, as [1, 2005], or of ranges in quotes, as \"0..100\", belongs here",
         ),
-        (",\n)", ",\n", "8: the text ends too early: is a bracket or a quote left open?"),
-        (",\n)", ",\n) x", "9: the text goes on after its last bracket"),
-        ("Assignment(", "Exam(", "2: \"Exam\" stands where `Assignment` belongs"),
+        (",\n)", ",\n", "8:20: the text ends too early: is a bracket or a quote left open?"),
+        (",\n)", ",\n) x", "9:2: the text goes on after its last bracket"),
+        ("Assignment(", "Exam(", "2:1: \"Exam\" stands where `Assignment` belongs"),
     ] {
         assert!(ASSIGNMENT.contains(from), "{from}");
         let error = AssignmentFile::parse("a", &ASSIGNMENT.replacen(from, to, 1)).unwrap_err();

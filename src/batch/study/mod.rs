@@ -162,10 +162,13 @@ impl Study {
     pub fn turns(&self) -> Vec<String> {
         let of_axis = |axis: &CheckedAxis| Some(format!("{}: {}", axis.parameter.name(), axis.turns()?));
         let of_goal = || {
-            let GoalText { robot, at, .. } = self.goal()?;
+            let GoalText { robot, at, within } = self.goal()?;
             let resident = self.worlds.values().flat_map(|world| &world.robots).find(|known| known.name == *robot)?;
             let lengths = RobotKind::of(&resident.kind)?.lengths;
-            Some(format!("goal: {}", WrittenCoordinate::all_turns(at, lengths).next()?))
+            Some(format!(
+                "goal: {}",
+                [at, within].into_iter().find_map(|written| WrittenCoordinate::all_turns(written, lengths).next())?
+            ))
         };
         self.axes.iter().filter_map(of_axis).chain(of_goal()).collect()
     }

@@ -1,5 +1,6 @@
 //! The library's output files, written whole or not at all, with this program's errors.
 
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -58,6 +59,14 @@ impl Write for ReportedFile {
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
     }
+}
+
+/// Makes the folder of an output that is several files, where there is none.
+pub fn make_folder(folder: &Path) -> Result<(), Failure> {
+    if is_dash(folder) {
+        return Err(Failure::usage("-: this output is a folder, not for standard output", "Name a folder: -o FOLDER."));
+    }
+    fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))
 }
 
 /// Writes the whole file of a target.

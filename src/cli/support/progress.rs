@@ -7,7 +7,8 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use super::console::{is_quiet, show_bar, take_bar};
 
-/// How far a command has come: a bar with the rate and the time left, which disappears when the work has ended. Nothing
+/// How far a command has come: a bar with the rate and the time left, and the counts in a line of their own, so that
+/// both lines fit a terminal of 40 columns. They disappear when the work has ended. Nothing
 /// is written where standard error is no terminal, or with `--quiet`, or where the bar of a larger work is there.
 pub struct CommandProgress {
     bar: ProgressBar,
@@ -17,13 +18,13 @@ pub struct CommandProgress {
 impl CommandProgress {
     /// The beginning of `count` pieces of work called `what`: ticks, pictures, seeds.
     pub fn of(count: u64, what: &str) -> Self {
-        let template = format!("{{wide_bar}} {{pos}} of {{len}} {what}, {{rate}}, {{eta}} left");
+        let template = format!("{{wide_bar}} {{rate}}, {{eta}} left\n{{pos}} of {{len}} {what}");
         Self::begin(ProgressBar::with_draw_target(Some(count), target()), &template)
     }
 
     /// The beginning of reading `count` bytes.
     pub fn of_bytes(count: u64) -> Self {
-        let template = "{wide_bar} {bytes} of {total_bytes}, {bytes_per_sec}, {eta} left";
+        let template = "{wide_bar} {bytes_per_sec}, {eta} left\n{bytes} of {total_bytes}";
         Self::begin(ProgressBar::with_draw_target(Some(count), target()), template)
     }
 
@@ -35,7 +36,7 @@ impl CommandProgress {
 
     /// The beginning of `count` runs, `done` of which were made before and do not count for the rate.
     pub fn of_runs(count: u64, done: u64) -> Self {
-        let template = "{wide_bar} {pos} of {len} runs, {rate}, {eta} left{msg}";
+        let template = "{wide_bar} {rate}, {eta} left\n{pos} of {len} runs{msg}";
         let progress = Self::begin(ProgressBar::with_draw_target(Some(count), target()), template);
         progress.bar.set_position(done);
         progress.bar.reset_eta();

@@ -146,7 +146,7 @@ fn a_trailer_is_dropped_and_taken_again_only_where_the_assignment_says_so() {
 fn an_assignment_whose_robot_starts_at_its_goal_is_refused() {
     let folder = folder(&[("nothing.ron", NOTHING), ("exam.ron", &ROOM_C.replace("9.75, 6.25", "2.25, 6.3"))]);
     let refused = run_in(folder.path(), &["grade", "exam.ron", "nothing.ron"]).failed(3);
-    assert!(refused.contains("exam.ron:2: goal: the robot is there at the start"), "{refused}");
+    assert!(refused.contains("exam.ron:2:11: goal: the robot is there at the start"), "{refused}");
     for (from, to, said) in [
         ("at: [9.75, 6.25, 0]", "at: [99.75, 6.25, 0]", "goal: the goal (99.75, 6.25) lies outside the world"),
         (

@@ -189,7 +189,7 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
 }
 
 #[test]
-fn a_wrong_assignment_is_3_and_names_line_and_item() {
+fn a_wrong_assignment_is_3_and_names_line_column_and_item() {
     let folder = folder(&[("ahead.ron", script(&[]))]);
     let refuse = |from: &str, to: &str| {
         assert!(ASSIGNMENT.contains(from), "{from}");
@@ -197,32 +197,36 @@ fn a_wrong_assignment_is_3_and_names_line_and_item() {
         graded(folder.path(), &["ahead.ron"]).failed(3)
     };
     let unknown = refuse("contacts: 0,", "contacts: 0, mood: 3,");
-    assert!(unknown.contains("exam.ron:7: ") && unknown.contains("mood") && unknown.contains("reversals"), "{unknown}");
-    assert!(refuse("    seeds:", "    grade: 3,\n    seeds:").contains("exam.ron:8: "));
-    assert!(refuse("version: 1", "version: 2").contains("exam.ron:2: version: version 2"));
+    assert!(
+        unknown.contains("exam.ron:7:39: ") && unknown.contains("mood") && unknown.contains("reversals"),
+        "{unknown}"
+    );
+    assert!(refuse("    seeds:", "    grade: 3,\n    seeds:").contains("exam.ron:8:5: "));
+    assert!(refuse("version: 1", "version: 2").contains("exam.ron:2:14: version: version 2"));
     assert!(
         refuse("\"Hitch\"", "\"Rusty\"")
-            .contains("exam.ron:4: robot: there is no robot \"Rusty\" in the world; it has Hitch")
+            .contains("exam.ron:4:12: robot: there is no robot \"Rusty\" in the world; it has Hitch")
     );
-    assert!(refuse("[6.5, 2.5, 0]", "[6.5, 2.5]").contains("exam.ron:5: start: no configuration"));
+    assert!(refuse("[6.5, 2.5, 0]", "[6.5, 2.5]").contains("exam.ron:5:12: start: no configuration"));
     assert!(
-        refuse("[6.5, 2.5, 0]", "[0.1, 2.5, 0]").contains("exam.ron:5: start: there the robot touches the west curb")
+        refuse("[6.5, 2.5, 0]", "[0.1, 2.5, 0]")
+            .contains("exam.ron:5:12: start: there the robot touches the west curb")
     );
     assert!(
         refuse("at: [7.5, 2.5, 0]", "at: [15.9, 2.5, 0]")
-            .contains("exam.ron:6: goal: there the robot touches the east curb")
+            .contains("exam.ron:6:11: goal: there the robot touches the east curb")
     );
-    assert!(refuse("[0.1, 0.1, 0.1]", "[0.1, 0.1]").contains("exam.ron:6: goal: 3 coordinates, 2 tolerances"));
-    assert!(refuse("[0.1, 0.1, 0.1]", "[0.1, -0.1, 0.1]").contains("exam.ron:6: goal: tolerance -0.1"));
-    assert!(refuse("[0.1, 0.1, 0.1]", "[0.1, NaN, 0.1]").contains("exam.ron:6: goal: tolerance NaN"));
-    assert!(refuse("at: [7.5, 2.5, 0]", "at: [inf, 2.5, 0]").contains("exam.ron:6: goal: no configuration"));
+    assert!(refuse("[0.1, 0.1, 0.1]", "[0.1, 0.1]").contains("exam.ron:6:11: goal: 3 coordinates, 2 tolerances"));
+    assert!(refuse("[0.1, 0.1, 0.1]", "[0.1, -0.1, 0.1]").contains("exam.ron:6:11: goal: tolerance -0.1"));
+    assert!(refuse("[0.1, 0.1, 0.1]", "[0.1, NaN, 0.1]").contains("exam.ron:6:11: goal: tolerance NaN"));
+    assert!(refuse("at: [7.5, 2.5, 0]", "at: [inf, 2.5, 0]").contains("exam.ron:6:11: goal: no configuration"));
     for far in ["10001", "1e300"] {
         let error = refuse("at: [7.5, 2.5, 0]", &format!("at: [{far}, 2.5, 0]"));
-        assert!(error.contains("exam.ron:6: goal: ") && error.contains("10000 m"), "no car can be there: {error}");
+        assert!(error.contains("exam.ron:6:11: goal: ") && error.contains("10000 m"), "no car can be there: {error}");
     }
-    assert!(refuse("ticks: 200", "ticks: 0").contains("exam.ron:7: limits: 0 ticks"));
-    assert!(refuse("[1, 2005]", "[]").contains("exam.ron:8: seeds: 0 seeds"));
-    assert!(refuse("[1, 2005]", "(0, 10)").contains("exam.ron:8: seeds: in parentheses they are neither a list"));
+    assert!(refuse("ticks: 200", "ticks: 0").contains("exam.ron:7:13: limits: 0 ticks"));
+    assert!(refuse("[1, 2005]", "[]").contains("exam.ron:8:12: seeds: 0 seeds"));
+    assert!(refuse("[1, 2005]", "(0, 10)").contains("exam.ron:8:12: seeds: in parentheses they are neither a list"));
     assert!(refuse("\"lot\"", "\"nowhere.ron\"").contains("nowhere.ron: no built-in world"));
     fs::write(folder.path().join("exam.ron"), ASSIGNMENT).unwrap();
     assert!(graded(folder.path(), &["nobody.ron"]).failed(3).contains("nobody.ron: there is no such file"));

@@ -102,7 +102,7 @@ fn a_goal_is_held_for_its_ticks_and_at_the_end() {
     ] {
         stay(said).unwrap();
         let error = run_in(folder.path(), &["grade", "exam.ron", "stop.ron"]).failed(3);
-        assert!(error.contains(&format!("exam.ron:{line}: ")) && error.contains(reason), "{error}");
+        assert!(error.contains(&format!("exam.ron:{line}:")) && error.contains(reason), "{error}");
     }
     let both = PARK.replace("0.1])", "0.1], ticks: 3)").replace("limits:", "stay: (hold: 3), limits:");
     fs::write(folder.path().join("exam.ron"), both).unwrap();
@@ -147,7 +147,7 @@ fn points_are_earned_criterion_by_criterion_and_never_for_nothing() {
         fs::write(folder.path().join("exam.ron"), PARK.replace("seeds:", &format!("points: {points}, seeds:")))
             .unwrap();
         let error = run_in(folder.path(), &["grade", "exam.ron", "idle.ron"]).failed(3);
-        assert!(error.contains("exam.ron:3: ") && error.contains(reason), "{points}: {error}");
+        assert!(error.contains("exam.ron:3:") && error.contains(reason), "{points}: {error}");
     }
     for (limit, criterion) in [(", reversals: 1)", "reversals"), (", contacts: 0", "contacts")] {
         let unlimited = exam.replace(limit, if criterion == "reversals" { ")" } else { "" });
@@ -194,7 +194,7 @@ fn seeds_are_ranges_too() {
         ("[]", "seeds: 0 seeds"),
     ] {
         let error = seeds(wrong).failed(3);
-        assert!(error.contains("exam.ron:3: ") && error.contains(reason), "{error}");
+        assert!(error.contains("exam.ron:3:") && error.contains(reason), "{error}");
     }
 }
 

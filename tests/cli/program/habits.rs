@@ -148,15 +148,19 @@ fn a_dash_is_standard_output_for_pictures() {
         let piped = bytes(folder.path(), &[begin, &["--format", form, "-o", "-"]].concat());
         assert!(piped.len() > 1000 && piped == fs::read(folder.path().join(&file)).unwrap(), "{begin:?} {form}");
     }
-    // what no pipe takes is refused, and no file is called `-`
+    // what no pipe takes is refused, and no file or folder is called `-`
+    let study = "Sweep(version: 1, ticks: 1, axes: [(vary: \"seed\", over: Range(0, 2))])";
+    fs::write(folder.path().join("study.ron"), study).unwrap();
     for arguments in [
         &["record", "--ticks", "3", "-o", "-"][..],
         &["replay", "run.mcap", "-o", "-"],
         &["export", "run.mcap", "--format", "foxglove", "-o", "-"],
         &["world", "export", "lot", "--format", "ros", "-o", "-"],
+        &["man", "-o", "-"],
+        &["sweep", "study.ron", "-o", "-"],
     ] {
         let error = run_in(folder.path(), arguments).failed(2);
-        assert!(error.contains("not for standard output") && error.contains("-o FILE"), "{arguments:?}: {error}");
+        assert!(error.contains("not for standard output") && error.contains("-o F"), "{arguments:?}: {error}");
     }
     assert!(!folder.path().join("-").exists());
 }

@@ -4,3 +4,4 @@ pub mod habits;
 pub mod manual;
 mod messages;
 pub mod shells;
+mod width;

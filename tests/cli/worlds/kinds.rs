@@ -71,7 +71,7 @@ fn grading_says_who_has_the_robot() {
     exam("lot.ron", "Train", "9, 1.9, 0, 0, 0");
     let message = run_in(folder.path(), &["grade", "exam.ron", "train.mcap"]).failed(3);
     says_what_to_do(&message);
-    assert!(message.contains("exam.ron:1: start: ") && message.contains("\"Train\""), "{message}");
+    assert!(message.contains("exam.ron:1:1: start: ") && message.contains("\"Train\""), "{message}");
     // a submission with a train, where the lab's car is asked for
     exam("lot", "Hitch", "11, 2.5, 0");
     let graded = run_in(folder.path(), &["grade", "--json", "exam.ron", "train.mcap"]);

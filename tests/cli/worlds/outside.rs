@@ -101,3 +101,32 @@ fn degrees_are_taken_where_angles_are_and_more_than_a_turn_is_noted() {
         checked.done();
     }
 }
+
+#[test]
+fn a_script_that_puts_a_robot_outside_its_world_is_refused_when_read_or_counted_when_applied() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    fs::write(at.join("w.ron"), room("kind: \"rusty\", start: [0, 0, 0]")).unwrap();
+    // 3.5 m and 0.5 m in units of 2^-20 m
+    let script = "Script(version: 1, events: [\n(tick: 2, robot: \"R\", input: Teleport([3670016, 524288, 0])),\n])";
+    fs::write(at.join("s.ron"), script).unwrap();
+    let target = "the target (3.5, 0.5) lies outside the world, which reaches from (-1, -2) to (3, 1)";
+    let read = format!("s.ron:2: events[0]: tick 2: Teleport of robot \"R\": {target}");
+    let recorded = ["record", "--world", "w.ron", "--script", "s.ron", "--ticks", "3"];
+    for arguments in [&["script", "check", "--world", "w.ron", "s.ron"][..], &[&recorded[..], &["--strict"]].concat()] {
+        let refused = run_in(at, arguments).failed(3);
+        assert!(refused.contains(&read), "{arguments:?}: {refused}");
+    }
+    let counted = run_in(at, &recorded);
+    assert_eq!(counted.code, Some(0), "{}", counted.err);
+    let applied = format!("1 input of the script was refused, at tick 2: robot \"R\" refused Teleport: {target}");
+    assert!(counted.err.contains(&applied), "{}", counted.err);
+    fs::write(at.join("t.csv"), "tick,robot,input\n2,R,Teleport,3.5,0.5,90deg\n").unwrap();
+    let refused = run_in(at, &["script", "convert", "--world", "w.ron", "t.csv"]).failed(3);
+    assert!(refused.contains(&format!("t.csv:2:14: tick 2: Teleport of robot \"R\": {target}")), "{refused}");
+    let turned = fs::read_to_string(at.join("t.csv")).unwrap().replace("3.5,0.5,90deg", "2,0.5,90");
+    fs::write(at.join("t.csv"), turned).unwrap();
+    let noted = run_in(at, &["script", "convert", "--world", "w.ron", "t.csv"]);
+    assert!(noted.err.contains("t.csv:2:20: 90 rad is 14.3 turns; angles are radians; write 90deg"), "{}", noted.err);
+    noted.done();
+}

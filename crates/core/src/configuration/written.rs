@@ -47,6 +47,11 @@ impl WrittenCoordinate {
         WrittenCoordinate { value, is_degrees: false }
     }
 
+    /// An angle of this many degrees.
+    pub const fn degrees(degrees: f64) -> Self {
+        WrittenCoordinate { value: degrees / 180.0 * PI, is_degrees: true }
+    }
+
     /// Its value: metres, or radians.
     pub const fn value(self) -> f64 {
         self.value
@@ -96,10 +101,7 @@ impl FromStr for WrittenCoordinate {
         let text = text.trim();
         let wrong = || WrittenCoordinateError::NotANumber(text.to_owned());
         match text.strip_suffix("deg") {
-            Some(degrees) => {
-                let degrees: f64 = degrees.trim_end().parse().map_err(|_| wrong())?;
-                Ok(WrittenCoordinate { value: degrees / 180.0 * PI, is_degrees: true })
-            }
+            Some(degrees) => degrees.trim_end().parse().map(WrittenCoordinate::degrees).map_err(|_| wrong()),
             None => text.parse().map(WrittenCoordinate::number).map_err(|_| wrong()),
         }
     }

@@ -71,7 +71,7 @@ impl WorldBuilder {
     /// As [`wall`](Self::wall).
     pub fn place(&mut self, name: String, pose: Pose2) -> Result<(), WorldProblem> {
         check_room("places", self.places.len())?;
-        self.places.push(make_place(&PlaceText { name, pose })?);
+        self.places.push(make_place(&PlaceText { name, pose: pose.into() })?);
         Ok(())
     }
 

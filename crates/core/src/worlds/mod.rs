@@ -67,8 +67,9 @@
 //! paths keep to them ([`Problem`](crate::collision::Problem)); a robot's footprint may reach over them, and drivers
 //! may leave them.
 //!
-//! An angle of a `start` may be written in degrees, in quotes: `start: [3, 5.5, "90deg"]`; [`turns`] finds those that
-//! were meant so and are not.
+//! Every angle may be written in degrees, in quotes, as in `start: [3, 5.5, "90deg"]`: those of starts, of the poses of
+//! places and mounts, of fields of view, `max_steer` and `jackknife`; [`turns`] finds those that were meant so and are
+//! not.
 //!
 //! Every list may be left out. A name is unique in the whole world. A robot's `start` is its configuration's
 //! coordinates: `rusty` x, y, theta; `reach` th1, th2; `reach3` th1, th2, th3; `hitch` x, y, theta, and psi with a

@@ -128,8 +128,9 @@ impl Atlas {
             super::teleport::crowd(&self.world, standing.iter().map(|(name, footprint)| (*name, footprint.clone())));
         let residents = self.residents.iter().map(Some).chain(std::iter::repeat(None));
         let refused = standing.iter().zip(first).zip(residents).filter_map(|(((name, footprint), first), resident)| {
-            if let Some(Err(error)) = resident.map(|resident| resident.robot.check(&resident.q)) {
-                return Some((*name, TeleportRefusal::Configuration(error)));
+            let there = resident.map(|r| super::teleport::check_there(&r.robot, &r.q, &self.world.bounds));
+            if let Some(Err(refusal)) = there {
+                return Some((*name, refusal));
             }
             let own = first..first + footprint.parts().len();
             let touched = scene.touched(footprint);

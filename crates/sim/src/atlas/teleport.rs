@@ -2,12 +2,13 @@
 
 use std::fmt;
 
+use crate::run::check_target;
 use motion_lab_core::collision::{Checker, Collision, ObstacleId, Scene};
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{NearestFree, Slice, nearest_free};
-use motion_lab_core::geometry::{Footprint, Part, Pose2, Shape};
+use motion_lab_core::geometry::{Aabb, Footprint, Part, Pose2, Shape};
 use motion_lab_core::robots::{AnyRobot, ConfigurationError, Robot};
-use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
+use motion_lab_core::worlds::{Obstacle, ObstacleKind, OutsideError, World};
 
 /// The check whether a robot can be put somewhere.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +35,8 @@ pub enum TeleportRefusal {
         /// The point's distance from the base, metres.
         wanted: f64,
     },
+    /// The target lies outside the world.
+    Outside(OutsideError),
     /// The target is no configuration of this robot.
     Configuration(ConfigurationError),
 }
@@ -50,6 +53,7 @@ impl fmt::Display for TeleportRefusal {
             TeleportRefusal::OutOfReach { least, most, wanted } => {
                 write!(f, "out of reach: {wanted:.2} m from the base, and the tip gets from {least:.2} to {most:.2} m")
             }
+            TeleportRefusal::Outside(error) => write!(f, "{error}"),
             TeleportRefusal::Configuration(error) => write!(f, "{error}"),
         }
     }
@@ -59,7 +63,7 @@ impl std::error::Error for TeleportRefusal {}
 
 impl Teleport {
     /// Checks whether the checker's robot can be put at `to`. It asks the query that decides teleports in a run, so a
-    /// run accepts what is accepted here. Touching is refused.
+    /// run accepts what is accepted here. Touching is refused, and so is a place outside the bounds.
     ///
     /// # Errors
     /// [`TeleportRefusal`] with the names of everything it would overlap or touch, and the nearest free configuration.
@@ -78,7 +82,7 @@ impl Teleport {
     /// # Errors
     /// [`TeleportRefusal`], whose `nearest` is `None`.
     pub fn ask_only(checker: &Checker<AnyRobot>, to: &AnyConfiguration) -> Result<(), TeleportRefusal> {
-        checker.robot().check(to).map_err(TeleportRefusal::Configuration)?;
+        check_there(checker.robot(), to, &checker.scene().bounds())?;
         let footprint = checker.robot().footprint(to);
         if !checker.scene().intersects(&footprint) {
             return Ok(());
@@ -86,6 +90,12 @@ impl Teleport {
         let names = names(checker.scene(), checker.scene().touched(&footprint));
         Err(TeleportRefusal::Overlap { names, nearest: None })
     }
+}
+
+/// Checks what needs no obstacles: that `to` is one of the robot's configurations, and lies within these bounds.
+pub(super) fn check_there(robot: &AnyRobot, to: &AnyConfiguration, bounds: &Aabb) -> Result<(), TeleportRefusal> {
+    robot.check(to).map_err(TeleportRefusal::Configuration)?;
+    robot.position(to).map_or(Ok(()), |at| check_target(at, bounds)).map_err(TeleportRefusal::Outside)
 }
 
 /// The names of these obstacles, in their order. A robot of several parts is named once.
@@ -152,6 +162,17 @@ mod tests {
         assert_eq!(atlas.teleport(7, rover), None);
         let wrong = atlas.robots()[0].q;
         assert!(matches!(atlas.teleport(1, wrong), Some(Err(TeleportRefusal::Configuration(_)))));
+    }
+
+    #[test]
+    fn a_place_outside_the_world_is_refused_by_name_and_there_is_no_offer() {
+        let mut atlas = Atlas::new(World::lot());
+        let car = atlas.robots()[0].q;
+        let refusal = atlas.teleport(0, car.with(0, 90.0).with(1, 5.0)).unwrap().unwrap_err();
+        let bounds = atlas.world().bounds;
+        let sides = format!("from ({}, {}) to ({}, {})", bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y);
+        assert_eq!(refusal.to_string(), format!("the target (90, 5) lies outside the world, which reaches {sides}"));
+        assert_eq!(atlas.robots()[0].q, car, "it stays where it is");
     }
 
     #[test]

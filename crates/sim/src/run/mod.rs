@@ -33,6 +33,8 @@ pub use mcap::{
 pub use quantized::Quantized;
 pub use recipe::{Recipe, RunInput};
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
+#[doc(hidden)]
+pub use script_check::check_target;
 pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
 pub use stats::{LeastClearance, Quantity, RobotStats, RunStats, Series, SeriesGatherer, StatsGatherer};
 pub use world_change::{WorldChange, WorldEvent};

@@ -7,8 +7,8 @@ use super::script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError,
 use super::{Event, Quantized, RobotInput, Script, WorldChange, WorldEvent};
 use crate::tour::{MAX_TICKS, TourConfig};
 use motion_lab_core::configuration::{Kinds, RobotKind};
-use motion_lab_core::geometry::MAX_COORDINATE;
-use motion_lab_core::worlds::{World, check_name};
+use motion_lab_core::geometry::{Aabb, MAX_COORDINATE, Point2};
+use motion_lab_core::worlds::{OutsideError, World, check_name};
 
 impl Script {
     /// Checks a script made by a program: whether [`parse`](Self::parse) could have returned it.
@@ -38,14 +38,16 @@ impl Script {
 
     /// Checks that a run of this configuration could apply every event: [`check`](Self::check),
     /// [`check_robots`](Self::check_robots) and [`check_worlds`](Self::check_worlds), and that robots get only inputs
-    /// that their kinds [take](RobotKind::takes), with as many coordinates as a configuration has.
+    /// that their kinds [take](RobotKind::takes), with as many coordinates as a configuration has, and teleports only
+    /// to places within their world's bounds.
     ///
     /// A run starts without this check, so that logs recorded before it still replay; there such an input is refused
     /// and counted. What depends on where robots are, such as a teleport onto an obstacle, shows only in the run.
     ///
     /// # Errors
     /// [`ScriptError`] without file and line, for the first of these that fails; [`located`](ScriptError::located) adds
-    /// them. [`ScriptProblem::NotTaken`] names tick, robot, kind, input, and what the kind takes.
+    /// them. [`ScriptProblem::NotTaken`] names tick, robot, kind, input, and what the kind takes;
+    /// [`ScriptProblem::Outside`] tick, robot, and the place.
     ///
     /// ```
     /// use motion_lab_core::configuration::{RobotKind, T2};
@@ -72,14 +74,16 @@ impl Script {
     /// As [`check_for`](Self::check_for).
     pub fn check_for_kinds(&self, config: &TourConfig, kinds: &Kinds) -> Result<(), ScriptError> {
         self.check()?;
-        let kind_of: BTreeMap<&str, &str> =
-            config.worlds.iter().flat_map(|w| &w.robots).map(|r| (r.name.as_str(), r.kind.as_str())).collect();
+        let robots = config.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| (r, &w.bounds)));
+        let known: BTreeMap<&str, (&str, &Aabb)> =
+            robots.map(|(r, bounds)| (r.name.as_str(), (r.kind.as_str(), bounds))).collect();
         for (i, event) in self.events.iter().enumerate() {
-            let Some(kind) = kind_of.get(event.robot.as_str()) else {
+            let Some((kind, bounds)) = known.get(event.robot.as_str()) else {
                 return Err(ScriptProblem::Robot(event.robot.clone()).at("events", i));
             };
             if let Some(about) = kinds.of(kind) {
                 event.check_kind(kind, about).map_err(|problem| problem.at("events", i))?;
+                event.check_within(about, bounds).map_err(|problem| problem.at("events", i))?;
             }
         }
         self.check_worlds(&config.worlds)
@@ -203,6 +207,34 @@ impl Event {
             _ => Ok(()),
         }
     }
+
+    /// Checks that a teleport leads within these bounds, those of the robot's world.
+    fn check_within(&self, about: &RobotKind, bounds: &Aabb) -> Result<(), ScriptProblem> {
+        match &self.input {
+            RobotInput::Teleport(to) if RobotKind::of(about.name).is_some_and(RobotKind::has_place) => {
+                let [x, y, ..] = to[..] else { return Ok(()) };
+                check_target(Point2::new(x.value(), y.value()), bounds).map_err(|reason| {
+                    let (tick, robot, reason) = (self.tick, self.robot.clone(), reason.to_string());
+                    ScriptProblem::Outside { tick, robot, reason }
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Checks that the place where an input puts a robot lies within the world's bounds. One on a side of theirs does, even
+/// where a script's units round it outward.
+///
+/// # Errors
+/// [`OutsideError::Position`] of a `target`.
+pub fn check_target(at: Point2, bounds: &Aabb) -> Result<(), OutsideError> {
+    let down = |p: Point2| p.map(|x| (x * Quantized::UNITS).floor() / Quantized::UNITS);
+    let up = |p: Point2| p.map(|x| (x * Quantized::UNITS).ceil() / Quantized::UNITS);
+    if Aabb::new(down(bounds.min), up(bounds.max)).contains(at) {
+        return Ok(());
+    }
+    OutsideError::check("target", at, bounds)
 }
 
 impl WorldEvent {

@@ -94,6 +94,16 @@ pub enum ScriptProblem {
         .0.tick, .0.input, .0.robot, .0.coordinates, .0.kind, counts(.0.about.spaces)
     )]
     NoConfiguration(Box<UnfitInput>),
+    /// A `Teleport` to a place outside the robot's world.
+    #[error("tick {tick}: Teleport of robot {robot:?}: {reason}")]
+    Outside {
+        /// The event's tick.
+        tick: u64,
+        /// The robot.
+        robot: String,
+        /// The place and the world's bounds, in the words of [`OutsideError`](motion_lab_core::worlds::OutsideError).
+        reason: String,
+    },
     /// A world that the run does not have.
     #[error("there is no world {0:?}")]
     World(String),

@@ -138,3 +138,35 @@ fn a_log_with_inputs_that_no_check_lets_through_replays_and_verifies() {
     assert_eq!(verify(&read, |_| {}).unwrap().identical, 3);
     assert_eq!(read.frames()[2].robots[0].refusals, 3);
 }
+
+#[test]
+fn a_teleport_outside_the_world_is_refused_when_it_is_read_and_when_it_is_applied() {
+    let start: &[f64] = &[5.0, -5.0, 0.0];
+    let mut world =
+        arena(10.0, &[("it", "rusty", start), ("car", "hitch", &[0.0, 5.0, 0.0]), ("arm", "reach", &[0.0; 2])]);
+    world.obstacles.clear();
+    // a side between two units of 2^-20 m, which the units round outward
+    world.bounds.max.x = 10.3;
+    let config = TourConfig { worlds: vec![world], ticks: 3, sensor: None };
+    let put = |robot: &str, to: &[f64]| event(2, robot, RobotInput::Teleport(quantized(to)));
+    for (robot, to, point) in [
+        ("it", &[90.0, 5.0, 0.0][..], Some("(90, 5)")),
+        ("it", &[0.0, -10.5, 0.0], Some("(0, -10.5)")),
+        ("car", &[-11.0, 0.0, 0.0], Some("(-11, 0)")),
+        ("it", &[10.3, 10.0, 0.0], None),
+        ("it", &[-10.0, -10.0, 0.0], None),
+        ("car", &[10.3, 0.0, 1.0], None),
+        // joint angles are no place
+        ("arm", &[30.0, -20.0], None),
+    ] {
+        let said = point.map(|point| {
+            format!("the target {point} lies outside the world, which reaches from (-10, -10) to (10.3, 10)")
+        });
+        let checked = script(vec![put(robot, to)]).check_for(&config).map_err(|error| error.to_string());
+        let read = said.as_ref().map(|said| format!("events[0]: tick 2: Teleport of robot {robot:?}: {said}"));
+        assert_eq!(checked.err(), read, "{robot} {to:?}");
+        let run = recorded(&config, vec![put(robot, to)]);
+        let applied = said.map(|said| format!("tick 2: robot {robot:?} refused Teleport: {said}"));
+        assert_eq!(run.refusals().first().map(ToString::to_string), applied, "{robot} {to:?}");
+    }
+}

@@ -32,7 +32,7 @@ pub fn cspace(args: &SceneArgs) -> Result<Captured, Failure> {
 
 /// Judges up to `budget` cells, and shows how far it has come.
 fn judge(map: &mut CellMap, budget: u32) {
-    let progress = CommandProgress::of(0, "cells, as far as is known");
+    let progress = CommandProgress::of(0, "cells, as known");
     let mut left = budget;
     while left > 0 && map.refine(left.min(PIECE)) {
         left -= left.min(PIECE);

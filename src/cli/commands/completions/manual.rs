@@ -1,12 +1,12 @@
 //! `man`: the manual pages.
 
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use clap::{Args, Command};
 
 use crate::cli::support::console::note;
-use crate::cli::support::output::write_file;
+use crate::cli::support::output::{make_folder, write_file};
 use crate::cli::support::target::Target;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
@@ -31,7 +31,7 @@ impl ManPages {
         match &self.output {
             None => data.text(&page(&program)?)?,
             Some(folder) => {
-                fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))?;
+                make_folder(folder)?;
                 let pages = write_pages(&program, folder)?;
                 note(format!("wrote {} to {}", counted(pages, "page"), folder.display()));
             }

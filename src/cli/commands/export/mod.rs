@@ -148,7 +148,7 @@ fn viewer(format: ExportFormat, file: &Path, log: &Log, target: &Target) -> Resu
     let output = target.path();
     let bytes = read_bytes(file, MAX_LOG)?;
     let mut pending = ReportedFile::create(target)?;
-    let progress = CommandProgress::of(2 * (log.ticks() + 1), "frames, each drawn and written");
+    let progress = CommandProgress::of(2 * (log.ticks() + 1), "steps, two a frame");
     let written = match format {
         ExportFormat::Rerun => write_rerun_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),
         _ => write_foxglove_of_file(&bytes, log, &mut pending, |_| {}, || progress.step()),

@@ -11,6 +11,7 @@ use motion_lab::tour::TourConfig;
 use serde::Serialize;
 
 use crate::cli::support::choices::WorldNames;
+use crate::cli::support::console::note;
 use crate::cli::support::input::{for_each_file, read_bytes_if, read_text};
 use crate::cli::support::log_source::read_log;
 use crate::cli::support::output::write_text;
@@ -80,10 +81,10 @@ Examples:
     /// Make a script from a table of comma-separated values.
     ///
     /// A row is `tick,robot,input` and the input's values: `1,Rusty,Drive,64,-20` (parts in 128 of the maximum),
-    /// `5,Reach,MoveTo,0.785,1.571` and `7,Rusty,Teleport,2.25,6.25,0` (metres and radians, rounded to 2^-20),
-    /// `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a heading;
-    /// empty rows and rows that begin with # are left out. Semicolons or tabs may stand between the values, numbers may
-    /// then have decimal commas; whole numbers may end in `.0`, `on` may be `TRUE`. Any line ends will do.
+    /// `5,Reach,MoveTo,0.785,90deg` and `7,Rusty,Teleport,2.25,6.25,0` (metres, and radians or degrees, rounded to
+    /// 2^-20), `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a
+    /// heading; empty rows and rows that begin with # are left out. Semicolons or tabs may stand between the values,
+    /// numbers may then have decimal commas; whole numbers may end in `.0`, `on` may be `TRUE`. Any line ends will do.
     #[command(after_help = "\
 Examples:
   motion-lab script convert drive.csv -o drive.ron")]
@@ -124,12 +125,13 @@ impl ScriptArgs {
             ScriptCommand::Convert { file, world, output } => {
                 let config = config(&world)?;
                 let text = read_text(&file)?;
-                let script = table::script(&text, config.as_ref()).map_err(|error| {
+                let (script, turns) = table::script(&text, config.as_ref()).map_err(|error| {
                     Failure::input(
                         format!("{}:{error}", file.display()),
                         "Correct it there; `motion-lab script convert --help` tells the form.",
                     )
                 })?;
+                turns.iter().for_each(|turns| note(format!("{}:{turns}", file.display())));
                 if script.events.is_empty() {
                     say(format!("{}: no events: the script is empty", file.display()));
                 }

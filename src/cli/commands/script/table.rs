@@ -1,5 +1,8 @@
 //! A script as a table of comma-separated values.
 
+use std::collections::BTreeMap;
+
+use motion_lab::configuration::{RobotKind, WrittenCoordinate};
 use motion_lab::run::{Event, Quantized, RobotInput, Script, ScriptProblem};
 use motion_lab::tour::TourConfig;
 
@@ -19,8 +22,9 @@ pub struct ScriptTableError {
 const MAX_CELLS: usize = 1000;
 
 /// The signs that end a row; a carriage return may have a line feed behind it. Spreadsheets of old Macs write the
-/// former alone.
-const ROW_ENDS: [char; 5] = ['\n', '\r', '\u{85}', '\u{2028}', '\u{2029}'];
+/// former alone. Other programs end rows with signs that part lines, pages or records, as Python splits lines.
+const ROW_ENDS: [char; 10] =
+    ['\n', '\r', '\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}', '\u{2029}'];
 
 /// The signs that may stand between cells.
 const SEPARATORS: [char; 3] = [',', ';', '\t'];
@@ -37,8 +41,13 @@ struct TableDialect {
     index: usize,
 }
 
-/// The script that a table describes, checked against a run's worlds and robots where they are given.
-pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptTableError> {
+/// The script that a table describes, checked against a run's worlds and robots where they are given; and what its
+/// writer may have meant by angles of more than a turn, each with its line and column.
+pub fn script(text: &str, config: Option<&TourConfig>) -> Result<(Script, Vec<String>), ScriptTableError> {
+    let mut turns = Vec::new();
+    let robots = config.into_iter().flat_map(|config| &config.worlds).flat_map(|world| &world.robots);
+    let lengths = robots.filter_map(|robot| Some((robot.name.as_str(), RobotKind::of(&robot.kind)?.lengths)));
+    let lengths: BTreeMap<&str, usize> = lengths.collect();
     let mut script = Script::new(Vec::new(), vec![]);
     // of each event the line, and the columns of its tick, its robot, its input and that input's first value
     let mut rows: Vec<(usize, [usize; 4])> = Vec::new();
@@ -65,7 +74,9 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptT
             continue;
         }
         cells.drain(..used.index.min(cells.len()));
-        script.events.push(TableRow { cells: &cells, end: row.chars().count() + 1, form: used }.event().map_err(at)?);
+        let row = TableRow { cells: &cells, end: row.chars().count() + 1, form: used, lengths: &lengths };
+        script.events.push(row.event().map_err(at)?);
+        turns.extend(row.turns().into_iter().map(|(column, note)| format!("{line}:{column}: {note}")));
         rows.push((line, [0, 1, 2, 3].map(|i| cells.get(i).map_or(1, |cell: &TableCell| cell.0))));
     }
     // the script's own checks: ticks in order, sizes
@@ -80,7 +91,7 @@ pub fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptT
         };
         ScriptTableError { line, column, reason: error.problem.to_string() }
     })?;
-    Ok(script)
+    Ok((script, turns))
 }
 
 /// The rows of a text, whatever ends them.
@@ -122,6 +133,8 @@ struct TableRow<'a> {
     cells: &'a [TableCell],
     end: usize,
     form: TableDialect,
+    /// The numbers of lengths that the coordinates of known robots begin with.
+    lengths: &'a BTreeMap<&'a str, usize>,
 }
 
 impl TableRow<'_> {
@@ -186,16 +199,45 @@ impl TableRow<'_> {
         i16::try_from(whole).map_err(|_| (at.0, format!("{what} {} is too large", at.1)))
     }
 
-    /// Metres and radians.
+    /// A coordinate as it is written: a number, or degrees.
+    fn written(&self, text: &str) -> Option<WrittenCoordinate> {
+        match text.strip_suffix("deg") {
+            Some(degrees) => self.number(degrees.trim_end()).map(WrittenCoordinate::degrees),
+            None => self.number(text).map(WrittenCoordinate::number),
+        }
+    }
+
+    /// The number of lengths that the coordinates of the row's robot begin with; `None` where its world is not known.
+    fn lengths(&self) -> Option<usize> {
+        self.lengths.get(self.cells[1].1.as_str()).copied()
+    }
+
+    /// What the writer may have meant by the row's angles that are more than a turn, each with its column.
+    fn turns(&self) -> Vec<(usize, String)> {
+        // in a world that is not known the first two coordinates of a teleport may be lengths
+        let lengths = match self.cells[2].1.as_str() {
+            "MoveTo" => 0,
+            "Teleport" => self.lengths().unwrap_or(2),
+            _ => return Vec::new(),
+        };
+        let note = |(column, text): &TableCell| Some((*column, self.written(text)?.turns()?));
+        self.cells.iter().skip(3 + lengths).filter_map(note).collect()
+    }
+
+    /// Metres and radians, or degrees.
     fn coordinates(&self, cells: &[TableCell]) -> Result<Vec<Quantized>, (usize, String)> {
         if cells.is_empty() {
             return Err((self.end, "the coordinates are missing".to_owned()));
         }
-        let coordinate = |(column, text): &TableCell| {
-            let number = self.number(text).ok_or_else(|| (*column, format!("{text:?} is no number")))?;
-            Quantized::try_new(number).ok_or_else(|| (*column, format!("{text} is too large or not finite")))
+        let lengths = self.lengths().unwrap_or(0);
+        let coordinate = |(index, (column, text)): (usize, &TableCell)| {
+            let written = self.written(text).ok_or_else(|| (*column, format!("{text:?} is no number")))?;
+            if index < lengths && written.is_degrees() {
+                return Err((*column, format!("coordinate {index} is a length in metres, and {text} is an angle")));
+            }
+            Quantized::try_new(written.value()).ok_or_else(|| (*column, format!("{text} is too large or not finite")))
         };
-        cells.iter().map(coordinate).collect()
+        cells.iter().enumerate().map(coordinate).collect()
     }
 }
 

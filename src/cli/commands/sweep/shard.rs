@@ -1,6 +1,5 @@
 //! Running a shard: its missing rows into the journal, then the part.
 
-use std::fs;
 use std::io::BufReader;
 use std::ops::Range;
 use std::path::Path;
@@ -17,6 +16,7 @@ use super::one;
 use crate::cli::support::console::note;
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
+use crate::cli::support::output::make_folder;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::{Target, numbers_in};
 use crate::cli::support::words::counted;
@@ -42,7 +42,8 @@ pub fn run(
         check_logs(&logs, shard.rows(study.runs()))?;
     }
     let needed = if keep == Keep::None { folder } else { &logs };
-    fs::create_dir_all(needed).map_err(|error| Failure::output(needed, &error))?;
+    make_folder(folder)?;
+    make_folder(needed)?;
     let part = folder.join(format!("part-{shard}.sweep"));
     if part.exists() {
         return finished(study, &part, jobs, (keep, &logs), data);

@@ -55,7 +55,7 @@ fn an_angle_is_typed_as_a_part_of_pi_and_beyond_half_a_turn_it_is_the_same_angle
 fn a_text_that_is_no_number_is_said_once_when_the_field_is_left_and_changes_nothing() {
     let mut harness = lab(WIDE);
     front(&mut harness, "Query");
-    let said = "\u{201c}2abc\u{201d} is no number. Write 0.7854 or pi/4.";
+    let said = "\u{201c}2abc\u{201d} is no number. Write 0.7854, pi/4 or 45deg.";
     for by_press in [false, true] {
         type_angle(&mut harness, "2abc");
         assert!(harness.query_by_label(said).is_none(), "not while it is typed");

@@ -7,7 +7,7 @@ use bevy_egui::egui::{
 };
 
 use super::state::Guesses;
-use crate::window::ui::number::NumberInput;
+use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::{formulas, headline, next_hint};
@@ -161,9 +161,12 @@ fn sliders(ui: &mut Ui, state: &mut UiState) {
         for (i, name) in names.iter().enumerate() {
             let anatomy = &mut state.anatomy.anatomy;
             let mut step = anatomy.step()[i];
-            let most = if anatomy.q().is_angle(i) { std::f64::consts::PI } else { 5.0 };
+            let (most, takes) = match anatomy.q().is_angle(i) {
+                true => (std::f64::consts::PI, TypedKind::Turn),
+                false => (5.0, TypedKind::Plain),
+            };
             let name = format!("step of {}", in_signs(name));
-            let typed = NumberInput::new(ui, -most..=most, false);
+            let typed = NumberInput::new(ui, -most..=most, takes);
             let slider = exact(Slider::new(&mut step, -most..=most), 3, &typed).text(&name);
             let response = ui.add(slider);
             response.widget_info(|| WidgetInfo::slider(true, step, &name));
@@ -288,7 +291,7 @@ pub(crate) fn world_choice(ui: &mut Ui, state: &mut UiState) {
 pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
     for (link, mut length) in state.anatomy.anatomy.lengths().into_iter().flatten().enumerate() {
         let anatomy = &mut state.anatomy.anatomy;
-        let typed = NumberInput::new(ui, LENGTHS, false);
+        let typed = NumberInput::new(ui, LENGTHS, TypedKind::Plain);
         // its name is in the field, so that no row parts them
         let field = DragValue::new(&mut length).range(LENGTHS).speed(0.01).fixed_decimals(2);
         let field = field.custom_parser(|text| typed.read(text)).update_while_editing(false);
@@ -326,7 +329,7 @@ pub(crate) fn coordinate(ui: &mut Ui, state: &mut UiState, index: usize, name: &
     let Some(mut value) = anatomy.q().coordinates().get(index).copied() else { return };
     let [least, most] = anatomy.range(index);
     let name = in_signs(name);
-    let typed = NumberInput::new(ui, least..=most, anatomy.q().is_angle(index));
+    let typed = NumberInput::new(ui, least..=most, TypedKind::of(anatomy.q().is_angle(index)));
     let response = ui.add(exact(Slider::new(&mut value, least..=most), 4, &typed).text(&name));
     response.widget_info(|| WidgetInfo::slider(true, value, &name));
     if response.changed() {

@@ -2,7 +2,7 @@
 
 use super::field::{NumberField, TypedText};
 use crate::window::ui::AtlasState;
-use crate::window::ui::number::{no_number, number};
+use crate::window::ui::number::{no_length, no_number, number, turns};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::atlas::{Number, Op};
 
@@ -57,8 +57,16 @@ impl AtlasState {
         if field.thing.as_ref().is_some_and(|name| !self.editor.holds(name)) {
             return;
         }
+        let numbers = field.thing.as_ref().map_or_else(|| self.seen().bounds(), |name| self.seen().numbers(name));
+        let is_length = numbers.get(field.number).is_some_and(|shown| shown.unit == "m");
         match number(&text) {
-            Some(to) => self.change(&self.setting(&field, to), self.selected.clone()),
+            Some(to) if to.is_degrees() && is_length => self.message = Some(no_length(&text)),
+            Some(to) => {
+                self.change(&self.setting(&field, to.value()), self.selected.clone());
+                if let Some(turns) = turns(&text).filter(|_| !is_length && self.message.is_none()) {
+                    self.message = Some(turns);
+                }
+            }
             None if text.trim().is_empty() => {}
             None => self.message = Some(no_number(&text)),
         }

@@ -7,7 +7,7 @@ use bevy_egui::egui::{
 use super::panel::edit_panel;
 use super::state::{AtlasState, Mode};
 use crate::window::ui::keys::{AtlasAction, SessionAction, keep_arrows};
-use crate::window::ui::number::NumberInput;
+use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::frame::next_hint;
 use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
@@ -332,7 +332,7 @@ fn measure_panel(ui: &mut Ui, state: &mut UiState) {
     ui.label("The grid is derived from the world, at any resolution. Point somewhere: the exact distance stands beside the grid's.");
     let mut resolution = state.atlas.resolution;
     let slider = Slider::new(&mut resolution, 0.05..=1.0).logarithmic(true).fixed_decimals(2).suffix(" m").text("cell");
-    let typed = NumberInput::new(ui, 0.05..=1.0, false);
+    let typed = NumberInput::new(ui, 0.05..=1.0, TypedKind::Plain);
     let response = ui.add(slider.custom_parser(|text| typed.read(text)).update_while_editing(false));
     response.widget_info(|| WidgetInfo::slider(true, resolution, "cell size in metres"));
     if response.changed() {

@@ -6,7 +6,7 @@ use motion_lab_core::configuration::Coordinates;
 use motion_lab_core::geometry::{Footprint, Point2};
 use motion_lab_core::num::{greater, lesser};
 use motion_lab_core::robots::{AnyRobot, Robot};
-use motion_lab_sim::run::{Quantized, RobotInput};
+use motion_lab_sim::run::{Quantized, RobotInput, check_target};
 use motion_lab_sim::simulation::RobotCommand;
 
 /// The coordinates that a robot has by the next tick, as far as they are asked for; else those that it has.
@@ -75,8 +75,8 @@ pub fn turn_to(
 }
 
 /// Asks that a robot have these coordinates by the next tick. Where it would overlap or touch an obstacle or another
-/// robot, or fold beyond its limits, it asks nothing, and returns the robot's footprint there. Asks nothing for what is
-/// no configuration of one of the lab's robots.
+/// robot, be outside its world, or fold beyond its limits, it asks nothing, and returns the robot's footprint there.
+/// Asks nothing for what is no configuration of one of the lab's robots.
 fn put(
     cockpit: &Cockpit,
     robot: &CockpitRobot,
@@ -91,7 +91,8 @@ fn put(
     model.check(&q).ok()?;
     let footprint = model.footprint(&q);
     let is_taken = robots_in_the_way(cockpit, robot, &footprint).next().is_some();
-    if is_taken || !model.is_within_limits(&q) || linked.scene_of(&cockpit.atlas).intersects(&footprint) {
+    let is_outside = model.position(&q).is_some_and(|at| check_target(at, &cockpit.world.bounds).is_err());
+    if is_taken || is_outside || !model.is_within_limits(&q) || linked.scene_of(&cockpit.atlas).intersects(&footprint) {
         return Some(footprint);
     }
     if rounded[..] != to_come(robot)[..] {

@@ -4,7 +4,7 @@ use bevy_egui::egui::{ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
 
 use super::state::{PlanStage, PlanState};
 use crate::window::ui::anatomy::view::{chooser, exact};
-use crate::window::ui::number::NumberInput;
+use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::headline;
@@ -241,7 +241,7 @@ fn coordinates(ui: &mut Ui, state: &mut UiState, end: usize) {
             0 => [bounds.min.x, bounds.max.x],
             _ => [bounds.min.y, bounds.max.y],
         };
-        let typed = NumberInput::new(ui, least..=most, q.is_angle(i));
+        let typed = NumberInput::new(ui, least..=most, TypedKind::of(q.is_angle(i)));
         let response = ui.add(exact(Slider::new(&mut value, least..=most), 3, &typed).text(in_signs(&name)));
         let spoken = format!("{name} of the {}", ["start", "goal"][end.min(1)]);
         response.widget_info(|| WidgetInfo::slider(true, value, &spoken));

@@ -110,7 +110,16 @@ pub(crate) struct RouteText {
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlaceText {
     pub name: String,
-    pub pose: Pose2,
+    pub pose: PoseText,
+}
+
+/// A pose. Only its angle may be written in degrees.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename = "Pose2", deny_unknown_fields)]
+pub(crate) struct PoseText {
+    pub x: f64,
+    pub y: f64,
+    pub theta: WrittenCoordinate,
 }
 
 #[derive(Deserialize)]
@@ -142,11 +151,23 @@ pub(crate) struct SensorText {
     pub range: f64,
     /// Radians; a full turn when left out.
     #[serde(default, deserialize_with = "given")]
-    pub field_of_view: Option<f64>,
+    pub field_of_view: Option<WrittenCoordinate>,
     #[serde(default, deserialize_with = "given")]
-    pub mount: Option<Pose2>,
+    pub mount: Option<PoseText>,
     #[serde(default, deserialize_with = "given")]
     pub noise: Option<BeamModel>,
+}
+
+impl From<Pose2> for PoseText {
+    fn from(Pose2 { x, y, theta }: Pose2) -> Self {
+        PoseText { x, y, theta: WrittenCoordinate::number(theta) }
+    }
+}
+
+impl From<PoseText> for Pose2 {
+    fn from(PoseText { x, y, theta }: PoseText) -> Self {
+        Pose2 { x, y, theta: theta.value() }
+    }
 }
 
 /// An item with a name.

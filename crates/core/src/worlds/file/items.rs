@@ -148,7 +148,7 @@ fn make_rounded(points: &[Point2], radius: f64) -> Result<Shape, WorldProblem> {
 
 pub(crate) fn make_place(text: &PlaceText) -> Result<Place, WorldProblem> {
     let p = make_point((text.pose.x, text.pose.y))?;
-    let theta = finite(text.pose.theta, "the heading")?;
+    let theta = finite(text.pose.theta.value(), "the heading")?;
     Ok(Place { name: text.name.clone(), pose: Pose2::new(p.x, p.y, theta) })
 }
 

@@ -82,16 +82,32 @@ impl World {
     }
 }
 
-/// What the writer of a world file may have meant by angles of more than a turn, a sentence for each robot that has
-/// such a start. None of a text that is no world file.
+/// What the writer of a world file may have meant by angles of more than a turn, a sentence for each place, and for
+/// each start, car and sensor of a robot, that has such an angle. None of a text that is no world file.
 pub fn turns(text: &str) -> Vec<String> {
     let Ok(file) = (FileText { file: "", text }).read() else { return Vec::new() };
-    let of = |robot: &RobotText| {
-        let lengths = RobotKind::of(&robot.kind).map(|known| known.lengths)?;
-        let note = WrittenCoordinate::all_turns(&robot.start, lengths).next()?;
-        Some(format!("the start of {}: {note}", robot.name))
-    };
-    file.robots.iter().filter_map(of).collect()
+    let places = file.places.iter().filter_map(|place| {
+        let note = place.pose.theta.turns()?;
+        Some(format!("the place {}: {note}", place.name))
+    });
+    places.chain(file.robots.iter().flat_map(turns_of)).collect()
+}
+
+fn turns_of(robot: &RobotText) -> Vec<String> {
+    let name = &robot.name;
+    let start = RobotKind::of(&robot.kind)
+        .and_then(|known| WrittenCoordinate::all_turns(&robot.start, known.lengths).next())
+        .map(|note| format!("the start of {name}: {note}"));
+    let car = robot.car.iter().flat_map(|car| {
+        let jackknife = car.trailer.as_ref().and_then(|trailer| trailer.jackknife);
+        [("max_steer", car.max_steer), ("jackknife", jackknife)]
+    });
+    let car = car.filter_map(|(field, angle)| Some(format!("the {field} of {name}: {}", angle?.turns()?)));
+    let sensors = robot.sensors.iter().flat_map(|sensor| {
+        let angles = [("mount", sensor.mount.map(|mount| mount.theta)), ("field_of_view", sensor.field_of_view)];
+        angles.map(|(field, angle)| Some(format!("the {field} of {name}'s {}: {}", sensor.name, angle?.turns()?)))
+    });
+    start.into_iter().chain(car).chain(sensors.flatten()).collect()
 }
 
 impl FileText<'_> {

@@ -69,8 +69,8 @@ fn make_sensor(text: &SensorText) -> ResidentSensor {
     let sensor = RangeSensor { n_rays: *rays, max_range: *range };
     ResidentSensor {
         name: name.clone(),
-        rays: FanSensor { sensor, field_of_view: field_of_view.unwrap_or(TAU) },
-        mount: mount.unwrap_or(Pose2::IDENTITY),
+        rays: FanSensor { sensor, field_of_view: field_of_view.map_or(TAU, WrittenCoordinate::value) },
+        mount: mount.map_or(Pose2::IDENTITY, Pose2::from),
         noise: *noise,
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Deserializer};
 
-use crate::configuration::{ArmSizes, CarSizes, DiscSizes, Sizes, SizesError, TrailerSizes};
+use crate::configuration::{ArmSizes, CarSizes, DiscSizes, Sizes, SizesError, TrailerSizes, WrittenCoordinate};
 use crate::geometry::Point2;
 
 /// Reads a field that may be left out and is written without `Some`.
@@ -52,9 +52,9 @@ pub(crate) struct CarText {
     #[serde(default, deserialize_with = "given")]
     rear_overhang: Option<f64>,
     #[serde(default, deserialize_with = "given")]
-    max_steer: Option<f64>,
+    pub(super) max_steer: Option<WrittenCoordinate>,
     #[serde(default, deserialize_with = "given")]
-    trailer: Option<TrailerText>,
+    pub(super) trailer: Option<TrailerText>,
 }
 
 #[derive(Deserialize)]
@@ -69,7 +69,7 @@ pub(crate) struct TrailerText {
     #[serde(default, deserialize_with = "given")]
     rear_overhang: Option<f64>,
     #[serde(default, deserialize_with = "given")]
-    jackknife: Option<f64>,
+    pub(super) jackknife: Option<WrittenCoordinate>,
 }
 
 /// The sizes that the text of a robot of this kind gives, checked; `None` where it gives none.
@@ -127,7 +127,7 @@ impl CarText {
             length: or(self.length, own.length),
             width: or(self.width, own.width),
             rear_overhang: or(self.rear_overhang, own.rear_overhang),
-            max_steer: or(self.max_steer, own.max_steer),
+            max_steer: or(self.max_steer.map(WrittenCoordinate::value), own.max_steer),
             trailer: self.trailer.as_ref().map_or(own.trailer, |trailer| trailer.over(&own.trailer)),
         }
     }
@@ -140,7 +140,7 @@ impl TrailerText {
             width: or(self.width, own.width),
             front_overhang: or(self.front_overhang, own.front_overhang),
             rear_overhang: or(self.rear_overhang, own.rear_overhang),
-            jackknife: self.jackknife.or(own.jackknife),
+            jackknife: self.jackknife.map(WrittenCoordinate::value).or(own.jackknife),
         }
     }
 }

@@ -1,8 +1,10 @@
 //! Tests of reading, printing and reading again, and of malformed texts.
 
+use std::f64::consts::FRAC_PI_2;
+
 use crate::geometry::{Point2, Pose2, Shape};
 use crate::random::{Seed, Stream};
-use crate::worlds::{BeamModel, MAX_ITEMS, ObstacleKind, World};
+use crate::worlds::{BeamModel, MAX_ITEMS, ObstacleKind, World, turns};
 
 const FILES: [&str; 3] = [
     include_str!("../../../worlds/apartment.ron"),
@@ -241,4 +243,60 @@ fn a_hundred_thousand_shapes_are_read_and_one_more_is_not() {
     assert_round_trip(&with(MAX_ITEMS - 1).unwrap());
     let error = with(MAX_ITEMS).unwrap_err();
     assert_eq!(error.to_string(), "many.ron:3:13: obstacles[0] \"o\": too many shapes: at most 100000");
+}
+
+#[test]
+fn every_angle_of_a_world_file_may_be_in_degrees() {
+    let file = |angles: [&str; 6]| {
+        let [theta, mount, view, steer, fold, start] = angles;
+        format!(
+            "World(version: 1, name: \"w\", bounds: (min: (0, 0), max: (40, 20)), places: [\n\
+             (name: \"p\", pose: (x: 3, y: 4, theta: {theta})),\n], robots: [\n\
+             (name: \"car\", kind: \"hitch\", start: [5, 5, {start}],\n\
+             car: (max_steer: {steer}, trailer: (jackknife: {fold})),\n\
+             sensors: [(name: \"ahead\", rays: 9, range: 4, field_of_view: {view},\n\
+             mount: (x: 0.5, y: 0, theta: {mount}))]),\n])"
+        )
+    };
+    // 90, -180, 60, 30, 80 and 45 degrees, by a calculator of many digits
+    let degrees = file(
+        ["90deg", "-180deg", "60deg", "30deg", "80deg", "45deg"]
+            .map(|a| format!("\"{a}\""))
+            .each_ref()
+            .map(String::as_str),
+    );
+    let radians = file([
+        "1.5707963267948966",
+        "-3.141592653589793",
+        "1.0471975511965976",
+        "0.5235987755982988",
+        "1.3962634015954636",
+        "0.7853981633974483",
+    ]);
+    let [degrees, radians] = [degrees, radians].map(|text| World::parse("w.ron", &text).unwrap());
+    let (p, q) = (degrees.places[0].pose, radians.places[0].pose);
+    assert_eq!((p.theta, q.theta), (FRAC_PI_2, FRAC_PI_2));
+    assert!(degrees.to_ron() == radians.to_ron(), "{}\n{}", degrees.to_ron(), radians.to_ron());
+
+    let noted = turns(&file(["90", "-180", "60", "30", "80", "45"]));
+    let says = |what: &str, n: &str, turns: &str| {
+        format!("the {what}: {n} rad is {turns} turns; angles are radians; write {n}deg")
+    };
+    // 90, 45, 30, 80, 180 and 60 over 2 pi are 14.32, 7.16, 4.77, 12.73, 28.65 and 9.55
+    let expected = [
+        says("place p", "90", "14.3"),
+        says("start of car", "45", "7.2"),
+        says("max_steer of car", "30", "4.8"),
+        says("jackknife of car", "80", "12.7"),
+        says("mount of car's ahead", "-180", "28.6"),
+        says("field_of_view of car's ahead", "60", "9.5"),
+    ];
+    assert_eq!(noted, expected);
+    assert!(turns(&radians.to_ron()).is_empty());
+    for (from, to) in [("x: 3", "x: \"3deg\""), ("x: 0.5", "x: \"5deg\""), ("range: 4", "range: \"4deg\"")] {
+        let text = file(["0", "0", "1", "0.5", "1", "0"]);
+        assert!(World::parse("w.ron", &text).is_ok() && text.contains(from));
+        let error = World::parse("w.ron", &text.replace(from, to)).unwrap_err().to_string();
+        assert!(error.starts_with("w.ron:"), "{error}");
+    }
 }

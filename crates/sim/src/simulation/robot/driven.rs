@@ -1,10 +1,11 @@
 //! `InputTarget`, what an input may change about a robot.
 
 use super::simulated::canonical;
-use crate::run::{Quantized, RobotInput};
+use crate::run::{Quantized, RobotInput, check_target};
 use crate::simulation::{DriveMode, Extra, SimulatedRobot};
 use motion_lab_core::collision::{Collision, Surroundings};
 use motion_lab_core::configuration::Coordinates;
+use motion_lab_core::geometry::Point2;
 use motion_lab_core::robots::Robot;
 
 /// Why an input is refused, of a robot with configurations `C`.
@@ -16,6 +17,8 @@ pub(crate) enum InputRefused<C> {
     Channel,
     /// There is no configuration with this number of coordinates that it can be put in.
     Coordinates(usize),
+    /// It would be put at this point, outside its world.
+    Outside(Point2),
     /// It would be beyond its own limits.
     Limits,
     /// It would touch something there.
@@ -45,6 +48,9 @@ impl<R: SimulatedRobot> InputTarget<R> {
         let InputTarget { q, mode, mut extra } = self;
         let fits = |q: &R::Configuration| {
             let robot = robot.fitted(q);
+            if let (RobotInput::Teleport(_), Some(at)) = (input, robot.position(q)) {
+                check_target(at, &surroundings().scene.bounds()).map_err(|_| InputRefused::Outside(at))?;
+            }
             if !robot.is_within_limits(q) {
                 return Err(InputRefused::Limits);
             }

@@ -4,6 +4,7 @@ use super::driven::InputRefused;
 use crate::simulation::SimulatedRobot;
 use motion_lab_core::collision::{Collision, Surroundings};
 use motion_lab_core::configuration::InputKind;
+use motion_lab_core::worlds::OutsideError;
 
 /// Why a robot refused an input.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -18,6 +19,9 @@ pub enum InputRefusal {
     /// There is no configuration with this number of coordinates that it can be put in.
     #[error("it can be put in no configuration of {0} coordinates")]
     Coordinates(usize),
+    /// It would be outside its world there: the place and the bounds, in the words of [`OutsideError`].
+    #[error("{0}")]
+    Outside(String),
     /// It would be beyond its own limits there.
     #[error("it would be beyond its own limits there")]
     Limits,
@@ -38,6 +42,10 @@ impl InputRefusal {
             InputRefused::NotTaken => InputRefusal::NotTaken(input),
             InputRefused::Channel => InputRefusal::Channel,
             InputRefused::Coordinates(given) => InputRefusal::Coordinates(given),
+            InputRefused::Outside(at) => {
+                let reason = OutsideError::check("target", at, &surroundings.scene.bounds()).err();
+                InputRefusal::Outside(reason.map_or_else(String::new, |reason| reason.to_string()))
+            }
             InputRefused::Limits => InputRefusal::Limits,
             InputRefused::Touches(q) => {
                 let touched = surroundings.witness(&robot.fitted(&q).footprint(&q)).filter(|w| w.dist == 0.0);

@@ -1,11 +1,16 @@
 use super::*;
+use motion_lab::worlds::World;
+
+fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptTableError> {
+    super::script(text, config).map(|(script, _)| script)
+}
 
 #[test]
 fn a_table_becomes_the_script_it_describes() {
     let table = "\u{feff}tick,robot,input,first,second\n# a drive\n1,Rusty,Drive,64,-20\n\n 5 , Reach , MoveTo , 0.5 , \
                  -1e-6 \r\n7,\"a \"\"b\"\", c\",Teleport,2,,\n9,Hitch,SetTrailer,on\n9,Hitch,SetTrailer,off,,\n\
                  12,Rusty,Release,,";
-    let script = super::script(table, None).unwrap();
+    let made = script(table, None).unwrap();
     let event = |tick, robot: &str, input| Event { tick, robot: robot.into(), input };
     let expected = [
         event(1, "Rusty", RobotInput::Drive(64, -20)),
@@ -15,8 +20,8 @@ fn a_table_becomes_the_script_it_describes() {
         event(9, "Hitch", RobotInput::SetTrailer(false)),
         event(12, "Rusty", RobotInput::Release),
     ];
-    assert_eq!(script.events, expected);
-    assert_eq!(super::script("", None).unwrap(), Script::empty());
+    assert_eq!(made.events, expected);
+    assert_eq!(script("", None).unwrap(), Script::empty());
 }
 
 #[test]
@@ -24,7 +29,7 @@ fn rows_end_as_spreadsheets_end_them() {
     let plain = "tick,robot,input,values\n1,Hitch,Drive,128,-64\n9,Rusty,Teleport,2.25,6.25,0\n";
     let expected = script(plain, None).unwrap();
     assert_eq!(expected.events.len(), 2);
-    for end in ["\r", "\r\n", "\u{2028}", "\u{2029}", "\u{85}", "\r\r\n", "\n\r"] {
+    for end in ["\r", "\r\n", "\u{2028}", "\u{2029}", "\u{85}", "\r\r\n", "\n\r", "\u{b}", "\u{c}", "\u{1e}"] {
         assert_eq!(script(&plain.replace('\n', end), None).as_ref(), Ok(&expected), "{end:?}");
         assert_eq!(script(&plain.replace("\n9", &format!("{end}9")), None).as_ref(), Ok(&expected), "{end:?}, mixed");
         let comment = format!("# made in a sheet{end}\"# for, us\"{end}{}", plain.replace('\n', end));
@@ -131,4 +136,48 @@ fn a_table_is_checked_against_its_world_cell_by_cell() {
     assert_eq!(refused("5,Hitch,MoveTo,1,2,3"), format!("3:9: {car}"));
     assert!(refused("5,Reach,MoveTo,1,2,3").starts_with("3:16: tick 5: MoveTo of robot \"Reach\" has 3"));
     assert!(script("5,Reach,MoveTo,1,2", Some(&config)).is_ok() && script("5,Anna,Release", None).is_ok());
+}
+
+#[test]
+fn angles_may_be_in_degrees_and_more_than_a_turn_is_noted() {
+    let config = TourConfig { worlds: vec![World::apartment(), World::workbench()], ..TourConfig::default() };
+    let plain = script(
+        "5,Reach,MoveTo,0.7853981633974483,-1.5707963267948966\n7,Rusty,Teleport,2.25,6.25,3.141592653589793",
+        None,
+    );
+    for table in [
+        "5,Reach,MoveTo,45deg,-90deg\n7,Rusty,Teleport,2.25,6.25,180deg",
+        "5;Reach;MoveTo;45,0deg;-90 deg\n7;Rusty;Teleport;2,25;6,25;180.0deg",
+    ] {
+        for known in [None, Some(&config)] {
+            assert_eq!(super::script(table, known).unwrap(), (plain.clone().unwrap(), vec![]), "{table}");
+        }
+    }
+    let length = "7,Rusty,Teleport,2.25,6deg,0";
+    assert_eq!(
+        script(length, Some(&config)).unwrap_err().to_string(),
+        "1:23: coordinate 1 is a length in metres, and 6deg is an angle"
+    );
+    assert_eq!(script("5,Reach,MoveTo,deg,0", None).unwrap_err().to_string(), "1:16: \"deg\" is no number");
+    // 90 and 30 over 2 pi are 14.32 and 4.77; 10 m are no angle
+    let turned = super::script("5,Reach,MoveTo,90,0\n7,Rusty,Teleport,10,6.25,30", None).unwrap().1;
+    let says =
+        |at: &str, n: u32, turns: &str| format!("{at}: {n} rad is {turns} turns; angles are radians; write {n}deg");
+    assert_eq!(turned, [says("1:16", 90, "14.3"), says("2:26", 30, "4.8")]);
+    assert_eq!(super::script("8,Reach,Teleport,90,0", Some(&config)).unwrap().1, [says("1:18", 90, "14.3")]);
+}
+
+#[test]
+fn a_teleport_outside_the_world_is_refused_where_the_world_is_known() {
+    let config = TourConfig { worlds: vec![World::apartment()], ..TourConfig::default() };
+    let table = "tick,robot,input\n7,Rusty,Teleport,90,5,0";
+    assert!(script(table, None).is_ok());
+    let bounds = World::apartment().bounds;
+    let sides = format!("from ({}, {}) to ({}, {})", bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y);
+    assert_eq!(
+        script(table, Some(&config)).unwrap_err().to_string(),
+        format!(
+            "2:18: tick 7: Teleport of robot \"Rusty\": the target (90, 5) lies outside the world, which reaches {sides}"
+        )
+    );
 }

@@ -8,7 +8,7 @@ use bevy_egui::egui::{
 
 use super::arm::{dragged, handle_name, joints, turned};
 use crate::window::ui::cspace::put_at::to_come;
-use crate::window::ui::number::NumberInput;
+use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::touch::pinched;
 use crate::window::ui::{CockpitRobot, Command, FrameColours, Grasp, UiState, keys};
@@ -205,7 +205,7 @@ pub fn numbers(
         ui.spacing_mut().button_padding = [4.0, 1.0].into();
         for (i, angle) in to.iter_mut().enumerate() {
             let label = ui.label(RichText::new(joint_sign(i)).color(look.colour(Role::Text)));
-            let typed = NumberInput::new(ui, -3.2..=3.2, true);
+            let typed = NumberInput::new(ui, -3.2..=3.2, TypedKind::Heading);
             let field = DragValue::new(angle).speed(0.01).fixed_decimals(3).range(-3.2..=3.2);
             let field = field.custom_parser(|text| typed.read(text)).update_while_editing(false);
             let response = ui.add(field).labelled_by(label.id);
