@@ -18,7 +18,7 @@ fn sampled(path: &serde_json::Value, radius: f64) -> f64 {
     let mut least = f64::INFINITY;
     for leg in path["legs"].as_array().unwrap() {
         let (from, to) = (numbers(&leg["from"]), numbers(&leg["to"]));
-        let steps = 1 + (f64::hypot(to[0] - from[0], to[1] - from[1]) / 1e-3) as u32;
+        let steps = 1 + (motion_lab::num::hypot(to[0] - from[0], to[1] - from[1]) / 1e-3) as u32;
         for k in 0..=steps {
             let s = f64::from(k) / f64::from(steps);
             let at = Point2::new(from[0] + s * (to[0] - from[0]), from[1] + s * (to[1] - from[1]));

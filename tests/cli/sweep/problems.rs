@@ -44,7 +44,7 @@ fn every_problem_of_a_scenario_is_a_run() {
     // the first is a straight line of eight cells; the second goes round one end of the wall, which is 1.5 m long
     assert!((numbers(0, "planned_path_m") - 4.0).abs() < 1e-9);
     let round = numbers(1, "planned_path_m");
-    assert!(round > 2.0 * f64::hypot(0.75, 0.5) && round < 2.6, "{round}");
+    assert!(round > 2.0 * motion_lab::num::hypot(0.75, 0.5) && round < 2.6, "{round}");
     for row in [0, 1] {
         assert_eq!((rows[row]("failure"), rows[row]("contacts")), (String::new(), "0".into()));
         assert!((numbers(row, "Rusty.end.x_m") - numbers(row, "problem.goal.x_m")).abs() < 0.05);
