@@ -5,6 +5,7 @@ use super::{Checker, EdgeVerdict, Rows, RowsError, Witness};
 use crate::robots::{ConfigurationError, Robot};
 
 /// So few answers are worked out by the caller's own thread.
+#[cfg(not(target_family = "wasm"))]
 const ALONE: usize = 64;
 
 /// Answers every question, given by its number, in its place, in parallel.

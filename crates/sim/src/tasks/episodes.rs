@@ -1,7 +1,7 @@
 //! `Episodes`, many episodes of a task stepped together.
 
 use super::episode::{Autoreset, Episode, seed_of};
-use super::{EpisodeEnd, EpisodeMoment, EpisodeStart, EpisodesError, Judgement, LearningTask};
+use super::{EpisodeEnd, EpisodeMoment, EpisodeStart, EpisodesError, Judgement, LearningTask, TaskSetting};
 use crate::recording::Run;
 use crate::run::{Event, Frame, Log, RobotInput, Script};
 use crate::simulation::{Replicas, SimulatedRobot, each};
@@ -61,14 +61,15 @@ impl<T: LearningTask> Episodes<T> {
     pub fn new(task: T, seeds: impl IntoIterator<Item = Seed>, autoreset: Autoreset) -> Result<Self, EpisodesError> {
         let seeds: Vec<Seed> = seeds.into_iter().collect();
         let runs = seeds.iter().map(|&own| seed_of(own, 0));
-        let mut replicas = Replicas::new(task.model(), task.world(), task.resident(), task.sensor(), runs)?;
+        let setting = task.setting();
+        let mut replicas = Replicas::new(&setting.model, &setting.world, &setting.resident, setting.sensor, runs)?;
         let mut episodes = Vec::with_capacity(seeds.len());
         for (i, &own) in seeds.iter().enumerate() {
             episodes.push(begin(&task, &mut replicas, i, own, 0)?);
         }
         let outcomes = vec![StepOutcome::default(); episodes.len()];
         let finals = match autoreset {
-            Autoreset::SameStep => vec![0.0; episodes.len() * task.observations()],
+            Autoreset::SameStep => vec![0.0; episodes.len() * task.setting().observations],
             Autoreset::NextStep | Autoreset::Disabled => Vec::new(),
         };
         Ok(Episodes { task, replicas, episodes, outcomes, finals, autoreset })
@@ -91,7 +92,7 @@ impl<T: LearningTask> Episodes<T> {
 
     /// The numbers in an observation of one.
     pub fn observations(&self) -> usize {
-        self.task.observations()
+        self.task.setting().observations
     }
 
     /// Writes what all observe now, one after the other.
@@ -101,7 +102,7 @@ impl<T: LearningTask> Episodes<T> {
     pub fn observe(&self, observations: &mut [f32]) -> Result<(), EpisodesError> {
         self.check_count("places for observations", observations.len(), self.observations())?;
         let Episodes { task, replicas, episodes, .. } = self;
-        let rows = observations.chunks_mut(task.observations().max(1));
+        let rows = observations.chunks_mut(task.setting().observations.max(1));
         each(
             episodes.iter().zip(rows).enumerate(),
             || (),
@@ -141,7 +142,7 @@ impl<T: LearningTask> Episodes<T> {
     /// [`EpisodesError`] for wrong numbers of actions or places, for the first action that is not finite, and for the
     /// first episode that ended and was not begun anew; nothing has changed then.
     pub fn step(&mut self, actions: &[f32], observations: &mut [f32]) -> Result<&[StepOutcome], EpisodesError> {
-        let width = self.task.actions();
+        let width = self.task.setting().actions;
         self.check_count("numbers in actions", actions.len(), width)?;
         self.check_count("places for observations", observations.len(), self.observations())?;
         if let Some(at) = actions.iter().position(|a| !a.is_finite()) {
@@ -207,12 +208,13 @@ impl<T: LearningTask> Episodes<T> {
     pub fn log(&self, index: usize) -> Result<Log, EpisodesError> {
         self.check_index(index)?;
         let Episode { seed, told, .. } = &self.episodes[index];
-        let robot = &self.task.resident().name;
+        let TaskSetting { resident, world, sensor, .. } = self.task.setting();
+        let robot = &resident.name;
         let event =
             |(tick, input): &(u64, RobotInput)| Event { tick: *tick, robot: robot.clone(), input: input.clone() };
         let script = Script::new(told.iter().map(event).collect(), Vec::new());
-        let world = World { robots: vec![self.task.resident().clone()], ..self.task.world().clone() };
-        let config = TourConfig { worlds: vec![world], ticks: self.tick(index), sensor: self.task.sensor() };
+        let world = World { robots: vec![resident.clone()], ..world.clone() };
+        let config = TourConfig { worlds: vec![world], ticks: self.tick(index), sensor: *sensor };
         Ok(Run::record(config, (*seed, script))?)
     }
 
@@ -237,7 +239,7 @@ impl<T: LearningTask> Episodes<T> {
                 continue;
             }
             let Judgement { reward, end } = task.judge(&episode.goal, &moment(replicas, i, &episode.before));
-            let is_over = replicas.tick(i) >= task.ticks();
+            let is_over = replicas.tick(i) >= task.setting().ticks;
             episode.end = end.or(is_over.then_some(EpisodeEnd::OutOfTime));
             *outcome = StepOutcome { reward, end: episode.end };
         }

@@ -1,7 +1,7 @@
 //! `HitchPark`, a trailer backed into a bay.
 
 use super::draws::{channels, first, held, quantized, write};
-use super::{EpisodeMoment, EpisodeStart, Judgement, LearningTask};
+use super::{EpisodeMoment, EpisodeStart, Judgement, LearningTask, TaskSetting};
 use crate::run::RobotInput;
 use motion_lab_core::collision::{Checker, Scene};
 use motion_lab_core::configuration::{HitchCfg, RobotKind};
@@ -9,8 +9,7 @@ use motion_lab_core::geometry::{Aabb, Point2, Pose2};
 use motion_lab_core::num;
 use motion_lab_core::random::Stream;
 use motion_lab_core::robots::{HITCH, Hitch, Robot as _};
-use motion_lab_core::sensors::RangeSensor;
-use motion_lab_core::worlds::{Resident, World};
+use motion_lab_core::worlds::World;
 
 /// Hitch backs its trailer into a bay of the Lot.
 ///
@@ -23,8 +22,7 @@ use motion_lab_core::worlds::{Resident, World};
 /// minute.
 #[derive(Clone, Debug)]
 pub struct HitchPark {
-    world: World,
-    resident: Resident,
+    setting: TaskSetting<Hitch>,
     checker: Checker<Hitch>,
     bays: Vec<Aabb>,
 }
@@ -34,12 +32,9 @@ impl HitchPark {
     pub fn new() -> Self {
         let world = World::lot();
         let bays = world.marks.iter().filter_map(|mark| Aabb::around(&mark.points)).collect();
-        let resident = world
-            .robots
-            .first()
-            .cloned()
-            .unwrap_or_else(|| Resident::new("Hitch", RobotKind::HITCH.name, vec![0.0; 3]));
-        HitchPark { checker: Checker::new(Scene::of_world(&world), HITCH.with_trailer()), world, resident, bays }
+        let checker = Checker::new(Scene::of_world(&world), HITCH.with_trailer());
+        let common = TaskSetting::of(world, HITCH, &RobotKind::HITCH);
+        HitchPark { checker, bays, setting: TaskSetting { ticks: 1_200, observations: 10, ..common } }
     }
 
     fn axle(&self, q: &HitchCfg) -> Pose2 {
@@ -70,32 +65,8 @@ impl LearningTask for HitchPark {
     type Robot = Hitch;
     type Goal = Aabb;
 
-    fn model(&self) -> &Hitch {
-        &HITCH
-    }
-
-    fn world(&self) -> &World {
-        &self.world
-    }
-
-    fn resident(&self) -> &Resident {
-        &self.resident
-    }
-
-    fn sensor(&self) -> Option<RangeSensor> {
-        None
-    }
-
-    fn ticks(&self) -> u64 {
-        1_200
-    }
-
-    fn actions(&self) -> usize {
-        2
-    }
-
-    fn observations(&self) -> usize {
-        10
+    fn setting(&self) -> &TaskSetting<Hitch> {
+        &self.setting
     }
 
     fn begin(&self, draws: &mut Stream) -> EpisodeStart<Aabb> {
@@ -106,7 +77,7 @@ impl LearningTask for HitchPark {
         };
         let start = first(draws, draw, |q| self.checker.is_free(q)).body;
         let bay = draws.below(self.bays.len() as u64) as usize;
-        let goal = self.bays.get(bay).copied().unwrap_or(self.world.bounds);
+        let goal = self.bays.get(bay).copied().unwrap_or(self.setting.world.bounds);
         let there = RobotInput::Teleport(quantized([start.x, start.y, start.theta]));
         EpisodeStart { inputs: vec![there, RobotInput::SetTrailer(true)], goal }
     }
@@ -117,7 +88,7 @@ impl LearningTask for HitchPark {
 
     fn observe(&self, goal: &Aabb, now: &EpisodeMoment<'_, Hitch>, observation: &mut [f32]) {
         let HitchCfg { body, trailer } = *now.q;
-        let (axle, middle, size) = (self.axle(now.q), goal.centre(), self.world.bounds);
+        let (axle, middle, size) = (self.axle(now.q), goal.centre(), self.setting.world.bounds);
         let (width, height) = (size.max.x - size.min.x, size.max.y - size.min.y);
         let (sin, cos) = num::sin_cos(body.theta);
         let (bent_sin, bent_cos) = num::sin_cos(trailer.unwrap_or(body.theta) - body.theta);

@@ -19,4 +19,4 @@ pub use error::EpisodesError;
 pub use hitch_park::HitchPark;
 pub use reach_post::ReachPost;
 pub use rusty_goal::RustyGoal;
-pub use task::{EpisodeEnd, EpisodeMoment, EpisodeStart, Judgement, LearningTask};
+pub use task::{EpisodeEnd, EpisodeMoment, EpisodeStart, Judgement, LearningTask, TaskSetting};

@@ -1,15 +1,14 @@
 //! `ReachPost`, an arm's way past the post.
 
 use super::draws::{first, held, quantized, write};
-use super::{EpisodeMoment, EpisodeStart, Judgement, LearningTask};
+use super::{EpisodeMoment, EpisodeStart, Judgement, LearningTask, TaskSetting};
 use crate::run::RobotInput;
 use motion_lab_core::collision::{Checker, Scene};
 use motion_lab_core::configuration::{Chart as _, Configuration as _, RobotKind, T2, Tn};
 use motion_lab_core::num;
 use motion_lab_core::random::Stream;
 use motion_lab_core::robots::Reach;
-use motion_lab_core::sensors::RangeSensor;
-use motion_lab_core::worlds::{Resident, World};
+use motion_lab_core::worlds::World;
 
 /// Reach turns from one side of the Workbench's post to the other. On the straight way its first link sweeps through
 /// the post: the arm has to fold, or to go round the other way.
@@ -21,8 +20,7 @@ use motion_lab_core::worlds::{Resident, World};
 /// contact takes 1. Both end the episode; it takes at most 200 ticks, ten seconds.
 #[derive(Clone, Debug)]
 pub struct ReachPost {
-    world: World,
-    resident: Resident,
+    setting: TaskSetting<Reach<2>>,
     checker: Checker<Reach<2>>,
 }
 
@@ -35,12 +33,9 @@ impl ReachPost {
     /// The task on the Workbench.
     pub fn new() -> Self {
         let world = World::workbench();
-        let resident = world
-            .robots
-            .first()
-            .cloned()
-            .unwrap_or_else(|| Resident::new("Reach", RobotKind::REACH.name, vec![0.0; 2]));
-        ReachPost { checker: Checker::new(Scene::of_world(&world), Reach::<2>::workbench()), world, resident }
+        let (scene, arm) = (Scene::of_world(&world), Reach::<2>::workbench());
+        let common = TaskSetting::of(world, arm, &RobotKind::REACH);
+        ReachPost { checker: Checker::new(scene, arm), setting: TaskSetting { observations: 11, ..common } }
     }
 
     fn draw(&self, about: [f64; 2], draws: &mut Stream) -> T2 {
@@ -59,32 +54,8 @@ impl LearningTask for ReachPost {
     type Robot = Reach<2>;
     type Goal = T2;
 
-    fn model(&self) -> &Reach<2> {
-        self.checker.robot()
-    }
-
-    fn world(&self) -> &World {
-        &self.world
-    }
-
-    fn resident(&self) -> &Resident {
-        &self.resident
-    }
-
-    fn sensor(&self) -> Option<RangeSensor> {
-        None
-    }
-
-    fn ticks(&self) -> u64 {
-        200
-    }
-
-    fn actions(&self) -> usize {
-        2
-    }
-
-    fn observations(&self) -> usize {
-        11
+    fn setting(&self) -> &TaskSetting<Reach<2>> {
+        &self.setting
     }
 
     fn begin(&self, draws: &mut Stream) -> EpisodeStart<T2> {

@@ -1,7 +1,7 @@
 //! `RustyGoal`, to a goal by lidar.
 
 use super::draws::{channels, first, held, quantized, write};
-use super::{EpisodeMoment, EpisodeStart, Judgement, LearningTask};
+use super::{EpisodeMoment, EpisodeStart, Judgement, LearningTask, TaskSetting};
 use crate::run::RobotInput;
 use motion_lab_core::collision::{Checker, Scene};
 use motion_lab_core::configuration::RobotKind;
@@ -10,7 +10,7 @@ use motion_lab_core::num;
 use motion_lab_core::random::Stream;
 use motion_lab_core::robots::{RUSTY, Robot as _, Rusty};
 use motion_lab_core::sensors::RangeSensor;
-use motion_lab_core::worlds::{Resident, World};
+use motion_lab_core::worlds::World;
 
 /// Rusty drives to a goal that it knows the direction of, by what its range sensor reads, in the Apartment with all
 /// doors open.
@@ -22,8 +22,7 @@ use motion_lab_core::worlds::{Resident, World};
 /// contact takes 1. Both end the episode; it takes at most 600 ticks, half a minute.
 #[derive(Clone, Debug)]
 pub struct RustyGoal {
-    world: World,
-    resident: Resident,
+    setting: TaskSetting<Rusty>,
     checker: Checker<Rusty>,
 }
 
@@ -38,16 +37,13 @@ impl RustyGoal {
     /// The task in the Apartment.
     pub fn new() -> Self {
         let world = World::apartment();
-        let resident = world
-            .robots
-            .first()
-            .cloned()
-            .unwrap_or_else(|| Resident::new("Rusty", RobotKind::RUSTY.name, vec![0.0; 3]));
-        RustyGoal { checker: Checker::new(Scene::of_world(&world), RUSTY), world, resident }
+        let checker = Checker::new(Scene::of_world(&world), RUSTY);
+        let common = TaskSetting::of(world, RUSTY, &RobotKind::RUSTY);
+        RustyGoal { checker, setting: TaskSetting { sensor: Some(SENSOR), ticks: 600, observations: 363, ..common } }
     }
 
     fn draw(&self, draws: &mut Stream) -> Pose2 {
-        let Aabb { min, max } = self.world.bounds;
+        let Aabb { min, max } = self.setting.world.bounds;
         let q = self.checker.robot().sample(min, max, draws);
         Pose2 { x: held(q.x), y: held(q.y), theta: held(q.theta) }
     }
@@ -71,32 +67,8 @@ impl LearningTask for RustyGoal {
     type Robot = Rusty;
     type Goal = Point2;
 
-    fn model(&self) -> &Rusty {
-        self.checker.robot()
-    }
-
-    fn world(&self) -> &World {
-        &self.world
-    }
-
-    fn resident(&self) -> &Resident {
-        &self.resident
-    }
-
-    fn sensor(&self) -> Option<RangeSensor> {
-        Some(SENSOR)
-    }
-
-    fn ticks(&self) -> u64 {
-        600
-    }
-
-    fn actions(&self) -> usize {
-        2
-    }
-
-    fn observations(&self) -> usize {
-        363
+    fn setting(&self) -> &TaskSetting<Rusty> {
+        &self.setting
     }
 
     fn begin(&self, draws: &mut Stream) -> EpisodeStart<Point2> {

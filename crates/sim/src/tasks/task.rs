@@ -2,6 +2,7 @@
 
 use crate::run::RobotInput;
 use crate::simulation::SimulatedRobot;
+use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::random::Stream;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::{Resident, World};
@@ -15,39 +16,50 @@ pub trait LearningTask: Send + Sync {
     /// What one episode has to itself, such as its goal.
     type Goal: Clone + std::fmt::Debug + PartialEq + Send + Sync;
 
-    /// The model of the robot's kind.
-    fn model(&self) -> &Self::Robot;
-
-    /// The world that the robot is in, alone.
-    fn world(&self) -> &World;
-
-    /// The robot in it.
-    fn resident(&self) -> &Resident;
-
-    /// The robot's range sensor, if it has one.
-    fn sensor(&self) -> Option<RangeSensor>;
-
-    /// The most ticks that an episode takes.
-    fn ticks(&self) -> u64;
-
-    /// How many numbers an action has, each in `[-1, 1]`.
-    fn actions(&self) -> usize;
-
-    /// How many numbers an observation has.
-    fn observations(&self) -> usize;
+    /// What all its episodes have in common.
+    fn setting(&self) -> &TaskSetting<Self::Robot>;
 
     /// Draws the start and the goal of an episode.
     fn begin(&self, draws: &mut Stream) -> EpisodeStart<Self::Goal>;
 
-    /// The input that an action stands for: one of [`actions`](Self::actions) finite numbers in `[-1, 1]`.
+    /// The input that an action stands for: its numbers are finite and in `[-1, 1]`.
     fn input(&self, now: &EpisodeMoment<'_, Self::Robot>, action: &[f32]) -> RobotInput;
 
-    /// Writes what the robot observes into [`observations`](Self::observations) places.
+    /// Writes what the robot observes into as many places as its numbers are.
     fn observe(&self, goal: &Self::Goal, now: &EpisodeMoment<'_, Self::Robot>, observation: &mut [f32]);
 
     /// What the tick that led to `now` earns, and whether it ends the episode. That it takes too long is not asked
     /// here.
     fn judge(&self, goal: &Self::Goal, now: &EpisodeMoment<'_, Self::Robot>) -> Judgement;
+}
+
+/// What all episodes of a task have in common.
+#[derive(Clone, Debug)]
+pub struct TaskSetting<R> {
+    /// The model of the robot's kind.
+    pub model: R,
+    /// The world that the robot is in, alone.
+    pub world: World,
+    /// The robot in it.
+    pub resident: Resident,
+    /// The robot's range sensor, if it has one.
+    pub sensor: Option<RangeSensor>,
+    /// The most ticks that an episode takes.
+    pub ticks: u64,
+    /// How many numbers an action has, each in `[-1, 1]`.
+    pub actions: usize,
+    /// How many numbers an observation has.
+    pub observations: usize,
+}
+
+impl<R> TaskSetting<R> {
+    /// Of the first robot of a world, or of one of this kind that has a name and no place. It has no sensor, ten
+    /// seconds, two numbers in an action, and observes nothing yet.
+    pub(super) fn of(world: World, model: R, kind: &RobotKind) -> Self {
+        let resident =
+            world.robots.first().cloned().unwrap_or_else(|| Resident::new(kind.title, kind.name, Vec::new()));
+        TaskSetting { model, world, resident, sensor: None, ticks: 200, actions: 2, observations: 0 }
+    }
 }
 
 /// How an episode begins.

@@ -8,7 +8,7 @@ use motion_lab_sim::tasks::{
 
 /// Actions drawn for `count` episodes at a step.
 pub(super) fn actions<T: LearningTask>(task: &T, draws: &mut Stream, count: usize) -> Vec<f32> {
-    (0..count * task.actions()).map(|_| draws.uniform(-1.0, 1.0) as f32).collect()
+    (0..count * task.setting().actions).map(|_| draws.uniform(-1.0, 1.0) as f32).collect()
 }
 
 /// Steps episodes by drawn actions and compares them with their logs.

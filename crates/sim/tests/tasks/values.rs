@@ -25,7 +25,7 @@ fn a_rover_observes_its_rays_over_four_metres_and_where_its_goal_is() {
     let q = Pose2::new(6.0, 4.0, std::f64::consts::FRAC_PI_2);
     let goal = Point2::new(7.8, 6.4);
     let ranges = RangeSensor { n_rays: 360, max_range: 4.0 }.scan_from(&Scene::apartment(), &[], &q);
-    let mut seen = vec![7.0; task.observations()];
+    let mut seen = vec![7.0; task.setting().observations];
     task.observe(&goal, &EpisodeMoment { ranges: &ranges, ..at(&q, &q) }, &mut seen);
     for (k, (seen, range)) in seen.iter().zip(&ranges).enumerate() {
         assert!(near(*seen, if range.is_finite() { range / 4.0 } else { 1.0 }), "ray {k}: {seen} of {range}");
@@ -99,7 +99,7 @@ fn a_trailer_is_parked_when_all_of_it_is_within_the_bays_marks() {
     ] {
         assert_eq!(parked(x, y).0.is_some(), is_in, "axle at ({x}, {y})");
     }
-    let mut seen = vec![7.0; task.observations()];
+    let mut seen = vec![7.0; task.setting().observations];
     let (_, q) = parked(6.75, 7.0);
     task.observe(&bay, &at(&q, &q), &mut seen);
     // the bay's middle is at (6.75, 7.625)
@@ -113,7 +113,7 @@ fn an_arm_observes_both_configurations_what_is_left_and_its_clearance() {
     // the worked example: at (pi/4, pi/2) the block is 1.5 / sqrt(2) - 1 m away
     let q = T2::new(std::f64::consts::FRAC_PI_4, std::f64::consts::FRAC_PI_2);
     let goal = T2::new(0.0, std::f64::consts::PI);
-    let mut seen = vec![7.0; task.observations()];
+    let mut seen = vec![7.0; task.setting().observations];
     task.observe(&goal, &at(&q, &q), &mut seen);
     let half = 0.5_f64.sqrt();
     let clearance = 1.5 * half - 1.0;
