@@ -57,6 +57,11 @@ const fn row(id: &'static str, title: &'static str, plans: Plans, words: &'stati
 }
 
 impl PlannerName {
+    /// Whether it joins samples that it draws.
+    pub const fn draws_samples(self) -> bool {
+        matches!(self, PlannerName::RrtConnect | PlannerName::Rrt | PlannerName::RrtStar | PlannerName::Prm)
+    }
+
     /// All planners, in the order of the lists.
     pub const ALL: [PlannerName; 13] = [
         PlannerName::RrtConnect,

@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
-use motion_lab_core::collision::{Checker, Problem, ProblemError, Scene};
+use motion_lab_core::collision::{Checker, Collision as _, Problem, ProblemError, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::greater;
 use motion_lab_core::planning::hybrid::HybridAStar;
 use motion_lab_core::planning::{
-    Bug1, Bug2, CellDecomposition, CertifiedPath, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Rrt,
-    RrtConnect, RrtStar, VisibilityGraph,
+    Bug1, Bug2, CellDecomposition, CertifiedPath, GridSearch, LinePath, MARGIN, NoPath, Planner, PotentialField, Prm,
+    Rrt, RrtConnect, RrtStar, VisibilityGraph,
 };
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Robot, Rusty, RustyDisc};
@@ -49,8 +49,9 @@ pub struct Task {
     /// How much larger a rover is planned, metres, so that its script may stray from the path by as much.
     pub tube: f64,
     /// The clearance that the path is to keep beside the tube, metres; with 0 it only touches nothing. A path that
-    /// keeps it is proven: [`CheckerName::EXACT`] alone plans so, and no robot that walks by its sensor does.
-    pub clearance: f64,
+    /// keeps it is proven: [`CheckerName::EXACT`] alone plans so, and no robot that walks by its sensor does. `None` for
+    /// what is [usual](Self::usual_clearance).
+    pub clearance: Option<f64>,
     /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
     /// sensor.
     pub noise: Option<BeamModel>,
@@ -70,7 +71,7 @@ impl Task {
             start,
             goal,
             tube: TUBE,
-            clearance: 0.0,
+            clearance: None,
             noise: None,
             checker: CheckerName::EXACT,
         }
@@ -109,7 +110,10 @@ impl Task {
     /// [`NoPath`]: there is no problem, or the planner does not suit the robot.
     pub fn attempt(&self, name: PlannerName, seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
         name.suits(&self.robot).map_err(NoPath::Unsuited)?;
-        if self.clearance > 0.0 && name == PlannerName::Bug1Sensor {
+        if self.clearance.is_none() {
+            return Task { clearance: Some(self.usual_clearance(name)), ..self.clone() }.attempt(name, seed);
+        }
+        if self.kept() > 0.0 && name == PlannerName::Bug1Sensor {
             return Err(NoPath::Unsuited("it walks by what its sensor sees, and keeps no clearance of yours"));
         }
         match (self.robot, self.start, self.goal) {
@@ -135,6 +139,19 @@ impl Task {
             }
             _ => Err(NoPath::Unsuited("start and goal are no configurations of this robot")),
         }
+    }
+
+    /// The clearance that a path keeps where nobody says another, metres: [`MARGIN`] by the planners that draw samples,
+    /// if start and goal have more, and 0 by the others, which keep what they keep or say that there is no path at all.
+    pub fn usual_clearance(&self, name: PlannerName) -> f64 {
+        let has_more = |q: &AnyConfiguration| self.scene.distance(&self.planned().footprint(q)) > MARGIN;
+        let keeps = name.draws_samples() && self.checker.proves() && has_more(&self.start) && has_more(&self.goal);
+        if keeps { MARGIN } else { 0.0 }
+    }
+
+    /// The clearance that is said, metres.
+    fn kept(&self) -> f64 {
+        self.clearance.unwrap_or(0.0)
     }
 
     /// The robot as it is planned for: a rover is larger by the tube.
@@ -196,7 +213,7 @@ impl Task {
 
     /// The scene in which a planner plans: the world's, with obstacles larger by the clearance that is to be kept.
     pub fn planned_scene(&self) -> Arc<Scene> {
-        if self.clearance > 0.0 { Arc::new(self.scene.grown(self.clearance)) } else { Arc::clone(&self.scene) }
+        if self.kept() > 0.0 { Arc::new(self.scene.grown(self.kept())) } else { Arc::clone(&self.scene) }
     }
 
     /// The problem of a robot in the scene in which it is planned.
@@ -207,14 +224,14 @@ impl Task {
         seed: Seed,
     ) -> Result<Problem<R>, ProblemError> {
         let own = Problem::try_new(self.checker.checker(&self.scene, robot.clone()), start, goal, seed)?;
-        if self.clearance <= 0.0 {
+        if self.kept() <= 0.0 {
             return Ok(own);
         }
         for (end, q) in [("start", &start), ("goal", &goal)] {
-            let nearest = own.checker().witness(q).ok().flatten().filter(|witness| witness.dist <= self.clearance);
+            let nearest = own.checker().witness(q).ok().flatten().filter(|witness| witness.dist <= self.kept());
             if let Some(witness) = nearest {
                 let obstacle = self.scene.obstacle_name(witness.obstacle).unwrap_or("an obstacle").to_owned();
-                return Err(ProblemError::Clearance { end, obstacle, clearance: witness.dist, kept: self.clearance });
+                return Err(ProblemError::Clearance { end, obstacle, clearance: witness.dist, kept: self.kept() });
             }
         }
         Problem::try_new(self.checker.checker(&self.planned_scene(), robot), start, goal, seed)
@@ -228,8 +245,8 @@ impl Task {
         CertifiedPath<M>: PlayablePath,
     {
         let trial = Trial::new(planner);
-        if self.clearance > 0.0 {
-            return Box::new(trial.keeping(Checker::new(Arc::clone(&self.scene), robot), self.clearance));
+        if self.kept() > 0.0 {
+            return Box::new(trial.keeping(Checker::new(Arc::clone(&self.scene), robot), self.kept()));
         }
         Box::new(trial)
     }

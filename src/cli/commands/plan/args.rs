@@ -63,9 +63,10 @@ pub struct PlanArgs {
     #[arg(long, value_name = "METRES", default_value_t = 0.02)]
     pub(super) tube: f64,
     /// The clearance that the path keeps from every obstacle, beside the tube, metres: 0 to 100. Start and goal are to
-    /// have it too. With 0 the path touches nothing, and may come as near as a proof can tell.
-    #[arg(long, value_name = "METRES", default_value_t = 0.0, allow_hyphen_values = true)]
-    pub(super) clearance: f64,
+    /// have it too. With 0 the path touches nothing, and may come as near as a proof can tell. [default: 0.001 for
+    /// rrt-connect, rrt, rrt-star and prm, if start and goal have it; 0 for any other planner]
+    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
+    pub(super) clearance: Option<f64>,
     /// Who answers the planner's questions. With parry, the book's black box, nothing is proven: what is printed and
     /// written says so, and adds what the exact checker finds along the path.
     #[arg(long, value_name = "CHECKER", value_parser = checker(), default_value = "exact", conflicts_with = "compare")]

@@ -38,11 +38,12 @@ impl PlanArgs {
         if !(0.0..=1.0).contains(&self.tube) {
             return Err(Failure::usage(format!("--tube {}: it must be from 0 to 1 m", self.tube), "Change --tube."));
         }
-        if !(0.0..=MAX_CLEARANCE).contains(&self.clearance) {
-            let reason = format!("--clearance {}: it must be from 0 to {MAX_CLEARANCE} m", self.clearance);
+        let kept = self.clearance.unwrap_or(0.0);
+        if !(0.0..=MAX_CLEARANCE).contains(&kept) {
+            let reason = format!("--clearance {kept}: it must be from 0 to {MAX_CLEARANCE} m");
             return Err(Failure::usage(reason, "Change --clearance."));
         }
-        if !self.checker.proves() && self.clearance > 0.0 {
+        if !self.checker.proves() && kept > 0.0 {
             let reason = format!("a clearance that is kept is proven, and {} proves nothing", self.checker.id());
             return Err(Failure::usage(reason, "Leave out --checker, or --clearance."));
         }
