@@ -101,7 +101,7 @@ pub enum SweepProblem {
         reason: String,
     },
     /// A study none of whose runs can be.
-    #[error("none of its {runs} runs can be; the first one, because: {reason}")]
+    #[error("{}, because: {reason}", none_of(*runs))]
     NoRun {
         /// The number of runs.
         runs: u64,
@@ -145,4 +145,9 @@ pub enum SweepProblem {
     /// No run, or too many.
     #[error("{0} runs: there must be 1 to {MAX_RUNS}")]
     Runs(u64),
+}
+
+/// That no run of so many can be, and whose reason follows.
+fn none_of(runs: u64) -> String {
+    if runs == 1 { "its one run can't be".into() } else { format!("none of its {runs} runs can be; the first one") }
 }

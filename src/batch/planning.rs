@@ -15,8 +15,8 @@ pub struct Planning {
     pub iterations: Option<u64>,
     /// How much larger a rover is planned, metres, so that it may stray from the path by as much.
     pub tube: f64,
-    /// The clearance that the path is to keep, metres.
-    pub clearance: f64,
+    /// The clearance that the path is to keep, metres; what the planner usually keeps for `None`.
+    pub clearance: Option<f64>,
 }
 
 /// What came of planning.

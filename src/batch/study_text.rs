@@ -65,13 +65,9 @@ pub(super) struct PlannerText {
     /// How much larger a rover is planned, metres.
     #[serde(default = "two_centimetres")]
     pub tube: f64,
-    /// The clearance that the path is to keep, metres; no field of the line where it is 0.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub clearance: f64,
-}
-
-fn is_zero(x: &f64) -> bool {
-    *x == 0.0
+    /// The clearance that the path is to keep, metres; no field of the line where none is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
 }
 
 fn two_centimetres() -> f64 {

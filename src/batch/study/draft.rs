@@ -71,7 +71,7 @@ impl RunDraft {
                 self.planner.as_mut().ok_or_else(no_planner)?.tube = *x;
             }
             (RunParameter::PlannerClearance, AxisValue::Number(x)) => {
-                self.planner.as_mut().ok_or_else(no_planner)?.clearance = *x;
+                self.planner.as_mut().ok_or_else(no_planner)?.clearance = Some(*x);
             }
             // an axis has only values of its parameter's form
             _ => {}
@@ -96,8 +96,8 @@ impl PlannerText {
         if !(0.0..=1.0).contains(tube) {
             return Err(format!("planner.tube: {tube} m: it must be from 0 to 1 m"));
         }
-        if !(0.0..=MAX_CLEARANCE).contains(clearance) {
-            return Err(format!("planner.clearance: {clearance} m: it must be from 0 to {MAX_CLEARANCE} m"));
+        if let Some(kept) = clearance.filter(|kept| !(0.0..=MAX_CLEARANCE).contains(kept)) {
+            return Err(format!("planner.clearance: {kept} m: it must be from 0 to {MAX_CLEARANCE} m"));
         }
         Ok(Planning { planner: name.clone(), goal, iterations: *iterations, tube: *tube, clearance: *clearance })
     }

@@ -183,7 +183,7 @@ fn what_came_of_planning_stands_before_the_digest() {
         goal: vec![4.5, 2.0, 1.0],
         iterations: Some(7),
         tube: 0.0,
-        clearance: 0.0,
+        clearance: None,
     };
     assert_eq!(planning(2), Ok(RunInputs::Planner(expected)));
     assert_eq!(planning(1), Err("planner.tube: 2 m: it must be from 0 to 1 m".into()));

@@ -9,6 +9,7 @@ use motion_lab::run::{Divergence, DivergingScan, Log, SetupDifference, Value, fi
 use serde::Serialize;
 
 use crate::cli::support::log_source::{read_full_log, say_damage};
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
 
 /// Compare two logs to the last bit, and name the first value that differs.
@@ -144,8 +145,8 @@ impl LogDifference {
         }
         let LogDifference { ticks, differing_ticks, .. } = self;
         match self.equal {
-            true => data.line(format!("{ticks} ticks, equal to the last bit")),
-            false => data.line(format!("{differing_ticks} of {ticks} ticks differ")),
+            true => data.line(format!("{}, equal to the last bit", counted(ticks, "tick"))),
+            false => data.line(format!("{differing_ticks} of {} differ", counted(ticks, "tick"))),
         }
     }
 }

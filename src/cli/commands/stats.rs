@@ -11,6 +11,7 @@ use serde::Serialize;
 use crate::cli::support::input::{shown, worst_of_each};
 use crate::cli::support::log_source::{LogSource, read_log, say_damage};
 use crate::cli::support::simulate::each_frame;
+use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Say what runs were like for each of their robots: contacts, time in contact, length of the path, least clearance.
@@ -119,7 +120,8 @@ fn print(file: &Path, stats: &RunStats, data: &mut Data) -> Result<(), Failure> 
         stats.robots.iter().map(|robot| of(robot).chars().count()).max().unwrap_or(0).max(least)
     };
     let (names, worlds) = (width(|robot| &robot.name, "robot".len()), width(|robot| &robot.world, "world".len()));
-    data.line(format!("{}: {} ticks ({:.2} s)", shown(file), stats.ticks, seconds(stats.ticks)))?;
+    let ticks = counted(stats.ticks, "tick");
+    data.line(format!("{}: {ticks} ({:.2} s)", shown(file), seconds(stats.ticks)))?;
     data.line(format!("{:names$}  {:worlds$}  contacts  in contact         path  least clearance", "robot", "world"))?;
     for robot in &stats.robots {
         let RobotStats { name, world, contacts, .. } = robot;

@@ -8,6 +8,7 @@ use motion_lab::run::{Comparison, Difference, Frame, Log, Recipe, Recorded};
 use motion_lab::simulation::SpawnError;
 
 use super::progress::CommandProgress;
+use super::words::unfit;
 use crate::cli::Failure;
 
 /// Advice about a run that can't start.
@@ -34,7 +35,11 @@ fn refused(error: &RunError) -> Failure {
 
 /// The run of a recipe at tick 0, which only goes ahead.
 pub fn begin(recipe: &Recipe) -> Result<Recorder, Failure> {
-    Ok(Recorder::of(recipe).map_err(|error| refused(&error))?.without_keyframes())
+    let run = Recorder::of(recipe).map_err(|error| match error {
+        RunError::Spawn(SpawnError::Script(problem)) => unfit(problem, &recipe.config),
+        error => refused(&error),
+    })?;
+    Ok(run.without_keyframes())
 }
 
 /// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].

@@ -37,9 +37,9 @@ fn a_step_is_an_iteration_and_play_goes_on_to_the_path_that_the_library_finds() 
     assert_eq!(plan(&harness).effort().iterations, 2);
     harness.get_by_label_contains("2 iterations");
     play(&mut harness);
-    // the library's own loop, on the same problem and seed
-    let checker =
-        crate::prelude::ChainChecker::new(crate::prelude::Scene::workbench(), crate::prelude::Reach::<2>::workbench());
+    // the library's own loop, on the same seed, among obstacles a millimetre larger
+    let among = |scene| crate::prelude::ChainChecker::new(scene, crate::prelude::Reach::<2>::workbench());
+    let checker = among(crate::prelude::Scene::workbench().grown(1e-3));
     let [start, goal] = [[2.0, 0.0], [3.1, 0.0]].map(motion_lab_core::configuration::Tn);
     let problem =
         motion_lab_core::collision::Problem::try_new(checker, start, goal, motion_lab_sim::tour::BOOK_SEED).unwrap();
@@ -50,7 +50,12 @@ fn a_step_is_an_iteration_and_play_goes_on_to_the_path_that_the_library_finds() 
     assert_eq!(shown.effort(), planner.growth().effort());
     let corners: Vec<Coordinates> = shown.drawn().corners.iter().map(|q| q.coordinates()).collect();
     assert_eq!(corners, path.corners().iter().map(|q| q.coordinates()).collect::<Vec<_>>());
-    assert_eq!(shown.lengths().unwrap().clearance.to_bits(), path.clearance().to_bits());
+    // a millimetre of the world's own obstacles is proven
+    let motions = path.legs().iter().map(|leg| leg.motion().clone());
+    let own =
+        motion_lab_core::planning::LinePath::try_keeping(&among(crate::prelude::Scene::workbench()), motions, 1e-3);
+    let clearance = own.unwrap().clearance();
+    assert!(clearance > 1e-3 && shown.lengths().unwrap().clearance.to_bits() == clearance.to_bits(), "{clearance}");
     harness.get_by_label_contains(" m, proven");
     // what is drawn has the growth's edges, the path and both ends
     let ids: Vec<&str> = shown.over.items.iter().map(|item| item.id.as_str()).collect();

@@ -24,7 +24,7 @@ pub enum PolygonError {
     #[error("vertex {0} is not finite or lies beyond {MAX_COORDINATE} m")]
     BadVertex(usize),
     /// An edge shorter than [`MIN_FEATURE`].
-    #[error("the edge after vertex {0} is shorter than {MIN_FEATURE} m")]
+    #[error("the edge after vertex {0} is shorter than {MIN_FEATURE} m: each corner is named once, the first one too")]
     ShortEdge(usize),
     /// The boundary turns right, or not at all, at this vertex.
     #[error("not strictly convex at vertex {0} (a concave or straight corner); split it into convex pieces")]

@@ -35,7 +35,10 @@ pub enum NoPath {
     },
     /// The planner went all the way round an obstacle, and the goal lies behind it. Whoever keeps less clearance may
     /// pass through a gap.
-    #[error("the goal lies behind an obstacle without a gap for one that keeps {kept} m from it")]
+    #[error(
+        "the goal lies behind an obstacle without a gap for one that keeps {} m from it",
+        (kept * 1e6).round_ties_even() / 1e6
+    )]
     Enclosed {
         /// The clearance that the planner keeps, metres.
         kept: f64,

@@ -128,7 +128,7 @@ pub enum WorldProblem {
     )]
     Kind(String),
     /// A start with the wrong number of coordinates.
-    #[error("{found} start coordinates: a {kind} starts with {expected}")]
+    #[error("{found} start coordinate{}: a {kind} starts with {expected}", if *found == 1 { "" } else { "s" })]
     Start {
         /// The robot's kind.
         kind: String,

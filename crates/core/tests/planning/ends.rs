@@ -129,4 +129,10 @@ fn from_a_place_to_itself_is_no_way_at_all() {
         assert!(length == 0.0 && length.is_sign_positive(), "{}: {length} m", planner.name());
         assert!((path.start(), path.goal()) == (here, here) && path.legs().len() == 1, "{}", planner.name());
     }
+    // by cells, which plans for a robot of any kind: not out to the middle of the cell and back
+    let here = AnyConfiguration::Pose(Pose2::new(0.5, 0.5, 0.0));
+    let checker = Checker::new(room(&[[0.0, -2.0, 0.0, 0.5]]).shared_scene(), AnyRobot::Rusty(RUSTY));
+    let mut cells = CellDecomposition::new(Problem::try_new(checker, here, here, Seed(1)).unwrap());
+    let path = solve(&mut cells, &Bounds::default()).unwrap();
+    assert!(path.legs().len() == 1 && path.length(&motion_lab_core::planning::Metric::unit(&here)) == 0.0);
 }

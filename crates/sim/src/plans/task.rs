@@ -49,8 +49,8 @@ pub struct Task {
     /// How much larger a rover is planned, metres, so that its script may stray from the path by as much.
     pub tube: f64,
     /// The clearance that the path is to keep beside the tube, metres; with 0 it only touches nothing. A path that
-    /// keeps it is proven: [`CheckerName::EXACT`] alone plans so, and no robot that walks by its sensor does. `None` for
-    /// what is [usual](Self::usual_clearance).
+    /// keeps it is proven: [`CheckerName::EXACT`] alone plans so, and no robot that walks by its sensor does. `None`
+    /// for what is [usual](Self::usual_clearance).
     pub clearance: Option<f64>,
     /// The noise of the range sensor by which the robot walks, if its planner is such a one; `None` for an exact
     /// sensor.
@@ -113,7 +113,7 @@ impl Task {
         if self.clearance.is_none() {
             return Task { clearance: Some(self.usual_clearance(name)), ..self.clone() }.attempt(name, seed);
         }
-        if self.kept() > 0.0 && name == PlannerName::Bug1Sensor {
+        if self.said_clearance() > 0.0 && name == PlannerName::Bug1Sensor {
             return Err(NoPath::Unsuited("it walks by what its sensor sees, and keeps no clearance of yours"));
         }
         match (self.robot, self.start, self.goal) {
@@ -150,7 +150,7 @@ impl Task {
     }
 
     /// The clearance that is said, metres.
-    fn kept(&self) -> f64 {
+    fn said_clearance(&self) -> f64 {
         self.clearance.unwrap_or(0.0)
     }
 
@@ -213,7 +213,11 @@ impl Task {
 
     /// The scene in which a planner plans: the world's, with obstacles larger by the clearance that is to be kept.
     pub fn planned_scene(&self) -> Arc<Scene> {
-        if self.kept() > 0.0 { Arc::new(self.scene.grown(self.kept())) } else { Arc::clone(&self.scene) }
+        if self.said_clearance() > 0.0 {
+            Arc::new(self.scene.grown(self.said_clearance()))
+        } else {
+            Arc::clone(&self.scene)
+        }
     }
 
     /// The problem of a robot in the scene in which it is planned.
@@ -224,14 +228,20 @@ impl Task {
         seed: Seed,
     ) -> Result<Problem<R>, ProblemError> {
         let own = Problem::try_new(self.checker.checker(&self.scene, robot.clone()), start, goal, seed)?;
-        if self.kept() <= 0.0 {
+        if self.said_clearance() <= 0.0 {
             return Ok(own);
         }
         for (end, q) in [("start", &start), ("goal", &goal)] {
-            let nearest = own.checker().witness(q).ok().flatten().filter(|witness| witness.dist <= self.kept());
+            let nearest =
+                own.checker().witness(q).ok().flatten().filter(|witness| witness.dist <= self.said_clearance());
             if let Some(witness) = nearest {
                 let obstacle = self.scene.obstacle_name(witness.obstacle).unwrap_or("an obstacle").to_owned();
-                return Err(ProblemError::Clearance { end, obstacle, clearance: witness.dist, kept: self.kept() });
+                return Err(ProblemError::Clearance {
+                    end,
+                    obstacle,
+                    clearance: witness.dist,
+                    kept: self.said_clearance(),
+                });
             }
         }
         Problem::try_new(self.checker.checker(&self.planned_scene(), robot), start, goal, seed)
@@ -245,8 +255,8 @@ impl Task {
         CertifiedPath<M>: PlayablePath,
     {
         let trial = Trial::new(planner);
-        if self.kept() > 0.0 {
-            return Box::new(trial.keeping(Checker::new(Arc::clone(&self.scene), robot), self.kept()));
+        if self.said_clearance() > 0.0 {
+            return Box::new(trial.keeping(Checker::new(Arc::clone(&self.scene), robot), self.said_clearance()));
         }
         Box::new(trial)
     }

@@ -53,6 +53,7 @@ fn the_warnings_of_a_crowd_are_those_of_each_robot_among_all_others() {
         }
         // two that touch exactly: rovers a diameter apart, where nothing else is
         let x = max.x + 20.0;
+        world.bounds.max.x = x + 1.0;
         world.robots.push(Resident::new("left", "rusty", [x, 0.0, 0.0]));
         world.robots.push(Resident::new("right", "rusty", [x + 0.22, 0.0, 0.0]));
         let plain = plain_warnings(&world);
@@ -124,8 +125,8 @@ fn an_input_reaches_the_robot_of_its_name_among_many() {
     let events = vec![
         event(1, "rover 41", RobotInput::Drive(128, 0)),
         event(2, "rover 7", RobotInput::Drive(64, 0)),
-        // two metres away where nobody stands, and onto rover 0, which is refused
-        event(2, "rover 59", RobotInput::Teleport(crate::simulator::quantized(&[19.0, 4.0, 0.0]))),
+        // behind the wall, where nobody stands, and onto rover 0, which is refused
+        event(2, "rover 59", RobotInput::Teleport(crate::simulator::quantized(&[19.0, 2.875, 0.0]))),
         event(2, "rover 58", RobotInput::Teleport(crate::simulator::quantized(&[0.0, 0.1, 0.0]))),
     ];
     let mut run = Recorder::new(config, (BOOK_SEED, Script::new(events, vec![]))).unwrap();
@@ -139,5 +140,5 @@ fn an_input_reaches_the_robot_of_its_name_among_many() {
         assert_eq!((robot.channels, robot.manual), (channels, [7, 41, 59].contains(&id)), "rover {id}");
         assert_eq!(robot.refusals, u32::from(id == 58), "rover {id}");
     }
-    assert!((run.frame().robots[59].configuration[1] - 4.0).abs() < 1e-9);
+    assert!((run.frame().robots[59].configuration[1] - 2.875).abs() < 1e-9);
 }

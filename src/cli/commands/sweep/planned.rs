@@ -104,7 +104,7 @@ fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), Strin
         None => PlannerName::default_for(&robot),
     };
     let task = Task::new(resident.name.as_str(), robot, world.clone(), [start, goal]);
-    Ok((Task { tube: planning.tube, clearance: Some(planning.clearance), ..task }, name))
+    Ok((Task { tube: planning.tube, clearance: planning.clearance, ..task }, name))
 }
 
 /// The planner of this name; else what there is.

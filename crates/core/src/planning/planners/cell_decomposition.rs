@@ -45,6 +45,8 @@ impl CellDecomposition {
         let [start, goal] =
             [self.search.problem.start(), self.search.problem.goal()].map(|q| raster.cell(map.slice().point(&q)));
         if let Some(cells) = raster.way(start, goal, |state| state == CellState::Free) {
+            // within one cell the straight way is free
+            let cells = if cells.len() > 1 { &cells[..] } else { &[] };
             let middles: Vec<AnyConfiguration> =
                 cells.iter().map(|cell| map.slice().at(raster.middle(*cell))).collect();
             let goal = self.search.problem.goal().in_chart();

@@ -122,6 +122,7 @@ fn robots_nobody_knows() {
         assert!(robot(kind, "0, 0, 0").contains("robots[0] \"r\": kind "), "{kind}");
     }
     assert!(robot("rusty", "0, 0").ends_with("2 start coordinates: a rusty starts with three: x, y, theta"));
+    assert!(robot("rusty", "0").ends_with("1 start coordinate: a rusty starts with three: x, y, theta"));
     for (kind, start) in [
         ("reach", "0"),
         ("reach", "0, 0, 0"),
