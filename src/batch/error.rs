@@ -147,7 +147,7 @@ pub enum SweepProblem {
     Runs(u64),
 }
 
-/// That no run of so many can be, and whose reason follows.
+/// A study's runs that cannot be, before the reason of the first one.
 fn none_of(runs: u64) -> String {
     if runs == 1 { "its one run can't be".into() } else { format!("none of its {runs} runs can be; the first one") }
 }

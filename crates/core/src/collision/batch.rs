@@ -4,22 +4,22 @@
 use super::{Checker, EdgeVerdict, Rows, RowsError, Witness};
 use crate::robots::{ConfigurationError, Robot};
 
-/// So few answers are worked out by the caller's own thread.
+/// Largest number of answers that the caller's own thread works out alone.
 #[cfg(not(target_family = "wasm"))]
-const ALONE: usize = 64;
+const MAX_ALONE: usize = 64;
 
 /// Answers every question, given by its number, in its place, in parallel.
 fn fill<T: Send>(answers: &mut [T], answer: impl Fn(usize, &mut T) + Sync + Send) {
     let one = |(i, place): (usize, &mut T)| answer(i, place);
     #[cfg(not(target_family = "wasm"))]
-    if answers.len() > ALONE {
+    if answers.len() > MAX_ALONE {
         use rayon::prelude::*;
         return answers.par_iter_mut().enumerate().for_each(one);
     }
     answers.iter_mut().enumerate().for_each(one);
 }
 
-/// The answers to so many questions, each in its place before it is known.
+/// A list of `count` answers, worked out in parallel; each place holds `before` until then.
 fn filled<T: Clone + Send>(count: usize, before: T, answer: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     let mut answers = vec![before; count];
     fill(&mut answers, |i, place| *place = answer(i));

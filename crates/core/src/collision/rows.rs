@@ -39,7 +39,7 @@ pub enum RowsError {
         /// How many a row was said to have.
         width: usize,
     },
-    /// Edges from so many rows to another number of them.
+    /// Edges with fewer beginnings than ends, or fewer ends.
     #[error("{from} rows to begin at, but {to} to end at")]
     Pairs {
         /// The number of rows that edges begin at.
@@ -55,7 +55,7 @@ pub enum RowsError {
         /// The number of places.
         places: usize,
     },
-    /// So many numbers are no configuration of this type.
+    /// A row as long as no configuration of this type.
     #[error("{width} numbers are no configuration of this robot")]
     Width {
         /// How many numbers a row has.

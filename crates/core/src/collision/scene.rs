@@ -122,7 +122,7 @@ impl Scene {
 
     /// The scene whose obstacles are larger by a distance all round, metres. What is free there has a clearance of more
     /// than that here, but for the rounding of the radii. The bounds stay. An obstacle that was not valid still is not;
-    /// so is every obstacle where the distance is not finite, or less than the obstacle's radius.
+    /// nor is any where the distance is not finite, or takes more than the obstacle's radius away.
     #[must_use]
     pub fn grown(&self, by: f64) -> Self {
         let pieces = self

@@ -79,17 +79,20 @@ pub(crate) enum CutKind {
     Mask,
 }
 
+/// An element to cut.
+pub struct CutElement<'a> {
+    pub node: Node<'a, 'a>,
+    /// Where it stands, its own transform included.
+    pub around: WalkContext<'a>,
+    /// Its first shape; all that follow are its own too.
+    pub from: usize,
+}
+
 /// What is still to be done; the last comes first.
 enum WalkStep<'a> {
     Element(Node<'a, 'a>, WalkContext<'a>),
-    /// Cuts the shapes from this one on, which are an element's, as its clip path or its mask says.
-    Cut {
-        kind: CutKind,
-        node: Node<'a, 'a>,
-        text: &'a str,
-        around: WalkContext<'a>,
-        from: usize,
-    },
+    /// Cuts an element as the text of its clip path or its mask says.
+    Cut(CutKind, CutElement<'a>, &'a str),
     /// Cuts the shapes from this one on at a region.
     Viewport {
         region: usize,
@@ -139,15 +142,15 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             match step {
                 WalkStep::Element(node, around) => self.element(node, &around)?,
                 WalkStep::Viewport { region, from } => self.cut(region, from),
-                WalkStep::Cut { kind, node, text, around, from } => {
-                    if self.shapes.len() > from
+                WalkStep::Cut(kind, element, text) => {
+                    if self.shapes.len() > element.from
                         && let Err(why) = match kind {
-                            CutKind::ClipPath => self.clip(node, text, &around, from),
-                            CutKind::Mask => self.mask(node, text, &around, from),
+                            CutKind::ClipPath => self.clip(&element, text),
+                            CutKind::Mask => self.mask(&element, text),
                         }
                     {
-                        self.shapes.truncate(from);
-                        self.note(node, |label| format!("{label} is left out: {why}"));
+                        self.shapes.truncate(element.from);
+                        self.note(element.node, |label| format!("{label} is left out: {why}"));
                     }
                 }
             }
@@ -214,7 +217,8 @@ impl<'a, 'd> SvgWalk<'a, 'd> {
             [("clip-path", CutKind::ClipPath), ("mask", CutKind::Mask), ("mask-image", CutKind::Mask)];
         for (property, kind) in CUTS.into_iter().filter(|_| !self.is_measuring) {
             if let Some(text) = own(property).filter(|text| !matches!(*text, "none" | "initial")) {
-                self.steps.push(WalkStep::Cut { kind, node, text, around: inner, from: self.shapes.len() });
+                let element = CutElement { node, around: inner, from: self.shapes.len() };
+                self.steps.push(WalkStep::Cut(kind, element, text));
             }
         }
         self.content(node, &inner)

@@ -8,8 +8,8 @@ use bevy::ecs::world::World;
 use crate::run::{Frame, Log, Recipe, RobotInput, RunInput, Script, WorldChange};
 use crate::simulation::{
     CommandError, Keyframes, Later, LatestFrame, PendingInput, Refusals, RestoreError, RobotCommand, RobotView, Roster,
-    RunConfig, SensorView, SimulationPlugin, SpawnError, StandingWorld, Transport, WorldCommand, change, input,
-    restore, seek, sensors, start_recipe, step_alone, view,
+    RunConfig, SensorView, SimulationPlugin, SpawnError, StandingWorld, Transport, WorldCommand, give_change,
+    give_input, restore, seek, sensors, start_recipe, step_alone, view,
 };
 use crate::tour::TourConfig;
 use motion_lab_core::worlds::World as WorldModel;
@@ -135,20 +135,20 @@ impl Recorder {
     /// # Errors
     /// [`CommandError::Script`] for an input that no script could hold: an unknown robot, a channel out of range. It is
     /// counted and changes nothing.
-    pub fn input(&mut self, robot: &str, given: RobotInput) -> Result<(), CommandError> {
-        input(&mut self.world, RobotCommand { robot: robot.to_owned(), input: given }, Later::Kept)
+    pub fn input(&mut self, robot: &str, input: RobotInput) -> Result<(), CommandError> {
+        give_input(&mut self.world, RobotCommand { robot: robot.to_owned(), input }, Later::Kept)
     }
 
     /// Changes a world before the next tick, as [`input`](Self::input).
     ///
     /// # Errors
     /// [`CommandError`] for a change that no script could hold, or that would be refused now: a robot is in the way.
-    pub fn change(&mut self, world: &str, made: WorldChange) -> Result<(), CommandError> {
-        change(&mut self.world, WorldCommand { world: world.to_owned(), change: made }, Later::Kept)
+    pub fn change(&mut self, world: &str, change: WorldChange) -> Result<(), CommandError> {
+        give_change(&mut self.world, WorldCommand { world: world.to_owned(), change }, Later::Kept)
     }
 
-    /// The run so far, up to the present tick, as a log: one that says all that the run was told, and verifies. The run
-    /// is simulated anew for it and stands where it stood.
+    /// The run up to the present tick as a log with all its inputs, which verifies. The run is simulated anew for it
+    /// and stands where it stood.
     ///
     /// # Errors
     /// [`RunError::Restore`], which cannot happen with the run's own keyframes.

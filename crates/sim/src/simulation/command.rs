@@ -71,8 +71,8 @@ pub(super) fn carry_out(world: &mut World) {
     let commands: Vec<RunCommand> = world.resource_mut::<Messages<RunCommand>>().drain().collect();
     for command in commands {
         let done = match command {
-            RunCommand::Robot(command) => input(world, command, Later::Forgotten),
-            RunCommand::World(command) => change(world, command, Later::Forgotten),
+            RunCommand::Robot(command) => give_input(world, command, Later::Forgotten),
+            RunCommand::World(command) => give_change(world, command, Later::Forgotten),
             RunCommand::Transport(command) => obey(world, command),
         };
         if let Err(error) = done {
@@ -90,7 +90,7 @@ pub(super) fn report_changes(mut refused: ResMut<RefusedChanges>, mut messages: 
 
 /// Stamps a change of a world with the next tick. One that would be refused now is refused, and stays out of the
 /// script.
-pub(crate) fn change(world: &mut World, command: WorldCommand, later: Later) -> Result<(), CommandError> {
+pub(crate) fn give_change(world: &mut World, command: WorldCommand, later: Later) -> Result<(), CommandError> {
     let WorldCommand { world: name, change } = command;
     let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     let Some(now) = recipe(world) else { return Ok(()) };
@@ -121,7 +121,7 @@ pub(crate) fn change(world: &mut World, command: WorldCommand, later: Later) -> 
 /// Stamps an input with the next tick. Input at a tick before the frontier, and any input to a looping run, continues
 /// the run from there. An input that no script could hold (an unknown robot, a channel out of range) is refused and
 /// counted, and forgets nothing.
-pub(crate) fn input(world: &mut World, command: RobotCommand, later: Later) -> Result<(), CommandError> {
+pub(crate) fn give_input(world: &mut World, command: RobotCommand, later: Later) -> Result<(), CommandError> {
     let RobotCommand { robot, input } = command;
     let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
     let known = world.get_resource::<Roster>().is_some_and(|roster| roster.named(&robot).is_some());

@@ -32,7 +32,7 @@ mod transport;
 mod truth;
 mod undo;
 
-pub(crate) use command::{Later, change, input};
+pub(crate) use command::{Later, give_change, give_input};
 pub use command::{RunCommand, WorldCommand};
 pub use command_error::{CommandError, CommandRefused};
 pub use components::{

@@ -3,13 +3,13 @@
 use crate::run::{Quantized, RobotInput};
 use motion_lab_core::random::Stream;
 
-/// So many are tried; of more the last stays, free or not.
-const TRIES: usize = 1_000;
+/// Largest number of draws, after which the last one stays, free or not.
+const MAX_DRAWS: usize = 1_000;
 
 /// The first of the draws that is as it should be; the last one if none is.
 pub(super) fn first<T>(draws: &mut Stream, mut draw: impl FnMut(&mut Stream) -> T, is_right: impl Fn(&T) -> bool) -> T {
     let mut drawn = draw(draws);
-    for _ in 1..TRIES {
+    for _ in 1..MAX_DRAWS {
         if is_right(&drawn) {
             break;
         }

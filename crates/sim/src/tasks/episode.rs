@@ -26,20 +26,21 @@ pub(super) struct Episode<G, C> {
     /// The seed of its run.
     pub(super) seed: Seed,
     pub(super) goal: G,
-    /// What the robot was told, with the tick: the script of its run.
-    pub(super) told: Vec<(u64, RobotInput)>,
+    /// The robot's inputs with their ticks: the script of its run.
+    pub(super) inputs: Vec<(u64, RobotInput)>,
     /// The configuration one tick before.
     pub(super) before: C,
     pub(super) end: Option<EpisodeEnd>,
 }
 
 impl<G, C> Episode<G, C> {
-    /// Notes an input that applies at a tick, and returns whether the robot has to be told: not of channels that it
-    /// holds already.
-    pub(super) fn tell(&mut self, tick: u64, input: &RobotInput) -> bool {
-        let is_held = matches!(input, RobotInput::Drive(..)) && self.told.last().is_some_and(|(_, last)| last == input);
+    /// Adds an input that applies at a tick. Returns false, and adds none, where the robot holds these channels
+    /// already.
+    pub(super) fn add_input(&mut self, tick: u64, input: &RobotInput) -> bool {
+        let is_held =
+            matches!(input, RobotInput::Drive(..)) && self.inputs.last().is_some_and(|(_, last)| last == input);
         if !is_held {
-            self.told.push((tick, input.clone()));
+            self.inputs.push((tick, input.clone()));
         }
         !is_held
     }

@@ -200,19 +200,19 @@ impl<T: LearningTask> Episodes<T> {
         self.replicas.frame(index)
     }
 
-    /// The run of one so far as a log, simulated anew from its seed and from what it was told. Its last frame is
+    /// The run of one so far as a log, simulated anew from its seed and its inputs. Its last frame is
     /// [`frame`](Self::frame), from tick 1 on.
     ///
     /// # Errors
     /// [`EpisodesError`] without such an episode.
     pub fn log(&self, index: usize) -> Result<Log, EpisodesError> {
         self.check_index(index)?;
-        let Episode { seed, told, .. } = &self.episodes[index];
+        let Episode { seed, inputs, .. } = &self.episodes[index];
         let TaskSetting { resident, world, sensor, .. } = self.task.setting();
         let robot = &resident.name;
         let event =
             |(tick, input): &(u64, RobotInput)| Event { tick: *tick, robot: robot.clone(), input: input.clone() };
-        let script = Script::new(told.iter().map(event).collect(), Vec::new());
+        let script = Script::new(inputs.iter().map(event).collect(), Vec::new());
         let world = World { robots: vec![resident.clone()], ..world.clone() };
         let config = TourConfig { worlds: vec![world], ticks: self.tick(index), sensor: *sensor };
         Ok(Run::record(config, (*seed, script))?)
@@ -224,7 +224,7 @@ impl<T: LearningTask> Episodes<T> {
         let episode = &mut episodes[index];
         episode.before = *replicas.configuration(index);
         let input = task.input(&moment(replicas, index, &episode.before), &cut);
-        let is_new = episode.tell(replicas.tick(index) + 1, &input);
+        let is_new = episode.add_input(replicas.tick(index) + 1, &input);
         if is_new {
             replicas.input(index, &input);
         }
@@ -283,8 +283,8 @@ fn begin<T: LearningTask>(
     let seed = seed_of(own, number);
     let EpisodeStart { inputs, goal } = task.begin(&mut Stream::new(seed, "task"));
     replicas.begin(index, seed, &inputs)?;
-    let told = inputs.into_iter().map(|input| (1, input)).collect();
-    Ok(Episode { own, number, seed, goal, told, before: *replicas.configuration(index), end: None })
+    let inputs = inputs.into_iter().map(|input| (1, input)).collect();
+    Ok(Episode { own, number, seed, goal, inputs, before: *replicas.configuration(index), end: None })
 }
 
 fn moment<'a, R: SimulatedRobot>(

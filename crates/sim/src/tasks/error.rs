@@ -3,7 +3,7 @@
 use crate::recording::RunError;
 use crate::simulation::SpawnError;
 
-/// Why episodes cannot begin or go on. Nothing has changed then.
+/// Why episodes cannot begin or go on. What the caller gave is checked before anything changes.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EpisodesError {

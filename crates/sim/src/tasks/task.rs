@@ -71,7 +71,7 @@ pub struct EpisodeStart<G> {
     pub goal: G,
 }
 
-/// What a task is told of an episode at a tick.
+/// What a task knows of an episode at a tick.
 #[derive(Debug)]
 pub struct EpisodeMoment<'a, R: SimulatedRobot> {
     /// The configuration one tick before; at tick 0 the same.

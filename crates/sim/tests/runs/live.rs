@@ -1,4 +1,4 @@
-//! Runs that are told what to do while they go on: the same as runs of a script that says it.
+//! Runs that get inputs while they go on: the same as runs of a script that has them.
 
 use motion_lab_core::prelude::*;
 use motion_lab_sim::recording::{Recorder, Run, verify};
@@ -29,7 +29,7 @@ fn config(ticks: u64) -> TourConfig {
 }
 
 #[test]
-fn what_a_run_is_told_is_its_script_and_a_recording_of_that_has_its_bits() {
+fn inputs_to_a_run_under_way_are_its_script_and_a_recording_of_that_has_its_bits() {
     // what the script had for later stays
     let before = vec![event(40, "Reach", RobotInput::MoveTo(quantized(&[0.5, 0.25])))];
     let mut live = Recorder::new(config(1200), (SEED, Script::new(before, vec![]))).unwrap();
@@ -66,7 +66,7 @@ fn what_a_run_is_told_is_its_script_and_a_recording_of_that_has_its_bits() {
 }
 
 #[test]
-fn a_run_moved_back_and_told_otherwise_goes_on_from_there() {
+fn a_run_moved_back_and_given_another_input_goes_on_from_there() {
     let mut live = Recorder::new(config(1200), SEED).unwrap();
     live.input("Rusty", RobotInput::Drive(128, 0)).unwrap();
     until(&mut live, 20);

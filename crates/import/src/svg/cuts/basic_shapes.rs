@@ -1,14 +1,12 @@
 //! Clip paths that are shapes of style sheets: `inset()`, `circle()`, `polygon()` and the like.
 
-use roxmltree::Node;
-
 use super::clip_paths::LeftOut;
-use super::clips::{ClipRegion, ClipShape};
+use super::clips::ClipShape;
 use crate::planar::{Affine, CurvedPart};
 use crate::svg::lengths::{Along, LengthScale, number_and_unit};
 use crate::svg::shapes::{ellipse, path_parts, rectangle};
 use crate::svg::transforms::{ReferenceBox, transform_origin};
-use crate::svg::walk::{SvgWalk, WalkContext, scale_of};
+use crate::svg::walk::{CutElement, SvgWalk, scale_of};
 use motion_lab_core::geometry::{Aabb, Point2, Vector2};
 use motion_lab_core::num::{greater, hypot, lesser};
 
@@ -25,20 +23,14 @@ struct ShapeScale {
 }
 
 impl<'a> SvgWalk<'a, '_> {
-    /// Cuts the shapes from `before` on, which are this element's, at a shape of a style sheet.
-    pub(super) fn clip_by_shape(
-        &mut self,
-        node: Node<'a, 'a>,
-        text: &str,
-        around: &WalkContext<'a>,
-        before: usize,
-    ) -> Result<(), LeftOut> {
+    /// Cuts an element at a shape of a style sheet.
+    pub(super) fn clip_by_shape(&mut self, element: &CutElement<'a>, text: &str) -> Result<(), LeftOut> {
         let not_understood =
             || format!("its clip path, {}, is not understood", text.chars().take(60).collect::<String>());
         self.spend(text.len())?;
         let (function, of_box) = function_and_box(text).ok_or_else(not_understood)?;
-        let is_stroked = self.shapes[before..].iter().any(|shape| shape.stroked);
-        let scale = scale_of(around);
+        let is_stroked = self.shapes[element.from..].iter().any(|shape| shape.stroked);
+        let scale = scale_of(&element.around);
         let of = match of_box {
             "view-box" => ReferenceBox { least: (0.0, 0.0), size: scale.viewport },
             // strokes have no width here
@@ -46,15 +38,13 @@ impl<'a> SvgWalk<'a, '_> {
                 return Err("its clip path is measured by the box around its stroke".into());
             }
             _ => {
-                let Aabb { min, max } = self.fill_box(node, around).ok_or("it has no box to cut")?;
+                let Aabb { min, max } = self.fill_box(element.node, &element.around).ok_or("it has no box to cut")?;
                 ReferenceBox { least: (min.x, min.y), size: (max.x - min.x, max.y - min.y) }
             }
         };
         let shape = ShapeScale { scale, of }.read(function).ok_or_else(not_understood)?;
-        let rings = self.rings(&shape.parts, &around.map, "its clip path")?;
-        let shape = ClipShape::new(rings, shape.even_odd, Vec::new());
-        let region = self.clips.add(ClipRegion { shapes: vec![shape], ..ClipRegion::default() });
-        self.cut(region, before);
+        let rings = self.rings(&shape.parts, &element.around.map, "its clip path")?;
+        self.cut_at(vec![ClipShape::new(rings, shape.even_odd, Vec::new())], element.from);
         Ok(())
     }
 }

@@ -9,7 +9,7 @@ use crate::svg::lengths::{Along, LengthScale};
 use crate::svg::shapes::parts;
 use crate::svg::style::StyleTable;
 use crate::svg::uses::{href, is_drawn, url_target};
-use crate::svg::walk::{SvgWalk, WalkContext, mapped, scale_of};
+use crate::svg::walk::{CutElement, SvgWalk, mapped, scale_of};
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::worlds::MAX_ITEMS;
 
@@ -25,34 +25,29 @@ pub(super) const MAX_CLIP_DEPTH: usize = 10;
 pub(super) type LeftOut = String;
 
 impl<'a> SvgWalk<'a, '_> {
-    /// Cuts the shapes from `before` on, which are this element's, as a property says.
-    pub fn clip(
-        &mut self,
-        node: Node<'a, 'a>,
-        text: &str,
-        around: &WalkContext<'a>,
-        before: usize,
-    ) -> Result<(), LeftOut> {
-        let Some(id) = url_target(text) else { return self.clip_by_shape(node, text, around, before) };
+    /// Cuts an element as a clip path says.
+    pub fn clip(&mut self, element: &CutElement<'a>, text: &str) -> Result<(), LeftOut> {
+        let Some(id) = url_target(text) else { return self.clip_by_shape(element, text) };
         // as in browsers, one that is not there cuts nothing
         let Some(target) = self.targets.get(id).copied().filter(|t| t.tag_name().name() == "clipPath") else {
             return Ok(());
         };
-        let mut map = around.map;
+        let mut map = element.around.map;
         if attribute(target, "clipPathUnits") == Some("objectBoundingBox") {
-            map = self.box_map(node, around)?;
+            map = self.box_map(element)?;
         }
         let style = ClipStyle::USUAL;
-        let region = self.clip_region(target, &ClipContext { map, scale: scale_of(around), style, depth: 0 })?;
-        self.cut(region, before);
+        let region =
+            self.clip_region(target, &ClipContext { map, scale: scale_of(&element.around), style, depth: 0 })?;
+        self.cut(region, element.from);
         Ok(())
     }
 
     /// The map to metres from parts of the box around an element.
-    pub(super) fn box_map(&mut self, node: Node<'a, 'a>, around: &WalkContext<'a>) -> Result<Affine, LeftOut> {
-        let Aabb { min, max } = self.fill_box(node, around).ok_or("it has no box to cut")?;
+    pub(super) fn box_map(&mut self, element: &CutElement<'a>) -> Result<Affine, LeftOut> {
+        let Aabb { min, max } = self.fill_box(element.node, &element.around).ok_or("it has no box to cut")?;
         let size = max - min;
-        Ok(around.map.after(&Affine([size.x, 0.0, 0.0, size.y, min.x, min.y])))
+        Ok(element.around.map.after(&Affine([size.x, 0.0, 0.0, size.y, min.x, min.y])))
     }
 
     /// Counts work, by the measure of [`MAX_CLIP_WORK`].

@@ -11,7 +11,7 @@ use crate::svg::lengths::{Along, LengthScale, ratio};
 use crate::svg::shapes::parts;
 use crate::svg::style::StyleTable;
 use crate::svg::uses::{href, is_drawn, url_target};
-use crate::svg::walk::{SvgWalk, WalkContext, scale_of};
+use crate::svg::walk::{CutElement, SvgWalk, scale_of};
 use motion_lab_core::geometry::Point2;
 
 /// Depth of the elements of a mask.
@@ -69,14 +69,8 @@ struct MaskLayers {
 }
 
 impl<'a> SvgWalk<'a, '_> {
-    /// Cuts the shapes from `before` on, which are this element's, as a mask says.
-    pub fn mask(
-        &mut self,
-        node: Node<'a, 'a>,
-        text: &str,
-        around: &WalkContext<'a>,
-        before: usize,
-    ) -> Result<(), LeftOut> {
+    /// Cuts an element as a mask says.
+    pub fn mask(&mut self, element: &CutElement<'a>, text: &str) -> Result<(), LeftOut> {
         let id = url_target(text).ok_or("its mask is not of the drawing")?;
         if !text.trim().ends_with(')') || text.matches("url(").count() > 1 {
             return Err("its mask is more than one element".into());
@@ -91,29 +85,30 @@ impl<'a> SvgWalk<'a, '_> {
             Some("userSpaceOnUse") => false,
             _ => usual,
         };
-        if let Some(ring) = self.mask_bounds(mask, node, around, of_box("maskUnits", true))? {
+        if let Some(ring) = self.mask_bounds(mask, element, of_box("maskUnits", true))? {
             let rings = self.rings(&[CurvedPart::ring(&ring.0)], &ring.1, "its mask")?;
-            self.cut_at(vec![ClipShape::new(rings, false, Vec::new())], before);
+            self.cut_at(vec![ClipShape::new(rings, false, Vec::new())], element.from);
         }
-        let mut map = around.map;
+        let mut map = element.around.map;
         if of_box("maskContentUnits", false) {
-            map = self.box_map(node, around)?;
+            map = self.box_map(element)?;
         }
         let key = (mask.id().get_usize(), map.0.map(f64::to_bits));
         if let Some(known) = self.clips_read.get(&key) {
-            self.cut(*known, before);
+            self.cut(*known, element.from);
             return Ok(());
         }
-        let shown = self.mask_content(mask, MaskContext { map, ..MaskContext::outermost(scale_of(around)) })?;
-        let region = self.cut_at(shown, before);
+        let shown =
+            self.mask_content(mask, MaskContext { map, ..MaskContext::outermost(scale_of(&element.around)) })?;
+        let region = self.cut_at(shown, element.from);
         self.clips_read.insert(key, region);
         Ok(())
     }
 
-    /// Cuts the shapes from `before` on at these shapes; returns the region that they are.
-    fn cut_at(&mut self, shapes: Vec<ClipShape>, before: usize) -> usize {
+    /// Cuts the shapes from this one on at these shapes; returns the region that they are.
+    pub(super) fn cut_at(&mut self, shapes: Vec<ClipShape>, from: usize) -> usize {
         let region = self.clips.add(ClipRegion { shapes, ..ClipRegion::default() });
-        self.cut(region, before);
+        self.cut(region, from);
         region
     }
 
@@ -122,8 +117,7 @@ impl<'a> SvgWalk<'a, '_> {
     fn mask_bounds(
         &mut self,
         mask: Node,
-        node: Node<'a, 'a>,
-        around: &WalkContext<'a>,
+        element: &CutElement<'a>,
         is_of_box: bool,
     ) -> Result<Option<([Point2; 4], Affine)>, LeftOut> {
         const SIDES: [&str; 4] = ["x", "y", "width", "height"];
@@ -131,6 +125,7 @@ impl<'a> SvgWalk<'a, '_> {
         if is_of_box && SIDES.iter().all(|name| attribute(mask, name).is_none()) {
             return Ok(None);
         }
+        let around = &element.around;
         let (scale, (width, height)) = (scale_of(around), around.viewport);
         let wholes = [width, height, width, height];
         let side = |i: usize| match attribute(mask, SIDES[i]) {
@@ -142,7 +137,7 @@ impl<'a> SvgWalk<'a, '_> {
             return Err("the rectangle of its mask is not understood".into());
         };
         let (width, height) = if width > 0.0 && height > 0.0 { (width, height) } else { (0.0, 0.0) };
-        let map = if is_of_box { self.box_map(node, around)? } else { around.map };
+        let map = if is_of_box { self.box_map(element)? } else { around.map };
         let corners = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)];
         Ok(Some((corners.map(|(x, y)| Point2::new(x, y)), map)))
     }
