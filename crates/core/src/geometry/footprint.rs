@@ -117,6 +117,32 @@ mod tests {
     use super::*;
 
     #[test]
+    fn footprints_of_any_number_of_parts_have_them_all_in_their_order() {
+        let part = |k: usize| Part::new(Pose2::new(k as f64, 1.0, 0.5), Shape::Disc { radius: 0.1 });
+        for count in 0..7 {
+            let (listed, numbered) = (Footprint::new((0..count).map(part)), Footprint::by_number(count, part));
+            assert!(listed == numbered && listed.clone() == listed && listed.parts().len() == count);
+            assert!(listed.parts().iter().enumerate().all(|(k, there)| *there == part(k)), "{count}");
+            assert_ne!(listed, Footprint::new((0..=count).map(part)));
+        }
+        assert_ne!(Footprint::new([part(0), part(1)]), Footprint::new([part(1), part(0)]));
+    }
+
+    #[test]
+    fn a_disc_is_the_part_that_its_frame_and_its_shape_make_to_the_last_bit() {
+        for (x, y) in [(1.5, -2.25), (0.0, 0.0), (-0.0, 3.0), (3.0, -0.0), (-0.0, -0.0), (f64::INFINITY, 1e-300)] {
+            let disc = Footprint::disc(Point2::new(x, y), 0.11);
+            let made = Part::new(Pose2 { x, y, theta: 0.0 }, Shape::Disc { radius: 0.11 });
+            assert_eq!(disc.parts(), [made.clone()]);
+            let bits = |part: &Part| {
+                let (pose, at) = (part.pose(), part.placed().core()[0]);
+                [pose.x, pose.y, pose.theta, at.x, at.y, part.placed().radius()].map(f64::to_bits)
+            };
+            assert_eq!(bits(&disc.parts()[0]), bits(&made), "({x}, {y})");
+        }
+    }
+
+    #[test]
     fn checked_constructors_refuse_and_unchecked_ones_fail_safe() {
         let (o, nan) = (Point2::origin(), Point2::new(f64::NAN, 0.0));
         assert!(Footprint::try_disc(nan, 0.1).is_err() && Footprint::try_disc(o, f64::INFINITY).is_err());

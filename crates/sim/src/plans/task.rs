@@ -304,6 +304,32 @@ mod tests {
     }
 
     #[test]
+    fn planners_that_draw_samples_keep_a_millimetre_where_start_and_goal_have_more() {
+        use PlannerName::{Prm, Rrt, RrtConnect, RrtStar};
+        let text = "World(version: 1, name: \"hall\", bounds: (min: (0, 0), max: (4, 4)), \
+                    walls: [(name: \"floor\", points: [(0, 0), (4, 0)])], robots: [])";
+        // the rover has 0.11 m and a tube of 0.02 m
+        let task = |start: f64, goal: f64| {
+            let [(robot, start), (_, goal)] =
+                [[1.0, start, 0.0], [3.0, goal, 0.0]].map(|q| AnyRobot::of_kind("rusty", &q).unwrap());
+            Task::new("Rusty", robot, World::parse("hall.ron", text).unwrap(), [start, goal])
+        };
+        for name in PlannerName::ALL {
+            let kept = if matches!(name, RrtConnect | Rrt | RrtStar | Prm) { 1e-3 } else { 0.0 };
+            assert_eq!(task(0.132, 0.132).usual_clearance(name), kept, "{}", name.id());
+            assert_eq!(task(0.1305, 2.0).usual_clearance(name), 0.0, "{}", name.id());
+            assert_eq!(task(2.0, 0.1305).usual_clearance(name), 0.0, "{}", name.id());
+            let unproven = Task { checker: CheckerName::PARRY, ..task(2.0, 2.0) };
+            assert_eq!(unproven.usual_clearance(name), 0.0, "{}", name.id());
+        }
+        // half a millimetre is enough for a path, unless more is asked for
+        assert!(task(0.1305, 2.0).attempt(RrtConnect, Seed(1)).is_ok());
+        let asked = Task { clearance: Some(1e-3), ..task(0.1305, 2.0) };
+        let refused = asked.attempt(RrtConnect, Seed(1)).err();
+        assert!(matches!(refused, Some(NoPath::Problem(ProblemError::Clearance { end: "start", .. }))), "{refused:?}");
+    }
+
+    #[test]
     fn what_is_drawn_is_what_was_grown_and_the_path_begins_and_ends_where_it_is_asked_to() {
         let mut refusing = 0;
         for task in tasks() {

@@ -2,9 +2,9 @@
 
 use motion_lab_core::prelude::*;
 use motion_lab_sim::recording::{Recorder, Run, verify};
-use motion_lab_sim::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
+use motion_lab_sim::run::{Event, MAX_EVENTS, RobotInput, Script, WorldChange, WorldEvent};
 use motion_lab_sim::simulation::CommandError;
-use motion_lab_sim::tour::TourConfig;
+use motion_lab_sim::tour::{MAX_TICKS, TourConfig};
 
 use crate::simulator::quantized;
 
@@ -102,4 +102,14 @@ fn what_no_script_could_hold_is_refused_and_what_the_tick_refuses_is_counted() {
     assert_eq!((live.script().events.len(), live.refusals().count()), (1, 2));
     live.step();
     assert_eq!(live.refusals().count(), 3);
+}
+
+#[test]
+fn a_script_that_is_full_takes_no_further_input_and_no_change() {
+    let full = vec![event(MAX_TICKS, "Rusty", RobotInput::Release); MAX_EVENTS];
+    let mut live = Recorder::new(config(1), (SEED, Script::new(full, vec![]))).unwrap();
+    let refused = live.input("Rusty", RobotInput::Drive(1, 0)).unwrap_err().to_string();
+    assert!(refused.contains(&(MAX_EVENTS + 1).to_string()), "{refused}");
+    assert!(live.change("Apartment", closing(1).change).is_err());
+    assert_eq!(live.script().events.len() + live.script().changes.len(), MAX_EVENTS);
 }
