@@ -92,22 +92,22 @@ pub const SHUT: &str = r#"World(version: 1, name: "shut", bounds: (min: (0, 0), 
 fn help_tells_the_exit_codes() {
     let help = run(&["--help"]).done();
     let table = help.split("Exit codes:\n").nth(1).unwrap().split("\n\n").next().unwrap();
-    let mut told: Vec<(u8, String)> = Vec::new();
+    let mut listed: Vec<(u8, String)> = Vec::new();
     for line in table.lines() {
         match line.trim_start().split_once("  ").map(|(code, meaning)| (code.parse(), meaning)) {
-            Some((Ok(code), meaning)) => told.push((code, meaning.to_owned())),
+            Some((Ok(code), meaning)) => listed.push((code, meaning.to_owned())),
             // a meaning goes on
-            _ => told.last_mut().unwrap().1.push_str(&format!(" {}", line.trim())),
+            _ => listed.last_mut().unwrap().1.push_str(&format!(" {}", line.trim())),
         }
     }
-    assert_eq!(told.iter().map(|(code, _)| *code).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5, 6, 75, 130]);
+    assert_eq!(listed.iter().map(|(code, _)| *code).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5, 6, 75, 130]);
     // the manual's table says the same
     let manual = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/docs/cli.md")).unwrap();
     let rows = manual.split("\n## Exit codes\n").nth(1).unwrap().split("\n## ").next().unwrap().lines();
     let rows = rows.filter_map(|row| row.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | "));
-    let told_there: Vec<_> =
+    let listed_there: Vec<_> =
         rows.filter_map(|(code, meaning)| Some((code.parse().ok()?, meaning.to_owned()))).collect();
-    assert_eq!(told_there, told);
+    assert_eq!(listed_there, listed);
     assert!(run(&["--version"]).done().starts_with("motion-lab 0."));
 }
 

@@ -122,7 +122,7 @@ fn a_row_is_the_run_that_record_records_and_reproduce_repeats() {
             assert_eq!(found.parse::<f64>().unwrap(), expected.parse::<f64>().unwrap(), "{robot} {column}");
         }
     }
-    // a part holds its study, too; a row of another digest is told
+    // a part holds its study, too; a row of another digest is refused
     let part = at.join("parts/part-1-of-1.sweep");
     run_in(at, &["sweep", "reproduce", part.to_str().unwrap(), "--row", "42", "-o", "again.mcap"]).done();
     assert!(fs::read(at.join("again.mcap")).unwrap() == fs::read(at.join("42.mcap")).unwrap());

@@ -226,7 +226,7 @@ fn what_an_output_replaced_is_said() {
         fs::write(&output, [b'x'; 77]).unwrap();
         let second = run_in(folder.path(), &arguments);
         assert!(second.err.contains(", replacing an older file of 77 bytes\n"), "{arguments:?}: {}", second.err);
-        // told to be quiet, it says nothing, and does the same
+        // asked to be quiet, it says nothing, and does the same
         fs::remove_file(&output).unwrap();
         let quiet = run_in(folder.path(), &[&arguments[..], &["--quiet"]].concat());
         assert!(quiet.code == Some(0) && quiet.err.is_empty() && output.exists(), "{arguments:?}: {}", quiet.err);
