@@ -133,7 +133,7 @@ mod tests {
         for (x, y) in [(1.5, -2.25), (0.0, 0.0), (-0.0, 3.0), (3.0, -0.0), (-0.0, -0.0), (f64::INFINITY, 1e-300)] {
             let disc = Footprint::disc(Point2::new(x, y), 0.11);
             let made = Part::new(Pose2 { x, y, theta: 0.0 }, Shape::Disc { radius: 0.11 });
-            assert_eq!(disc.parts(), [made.clone()]);
+            assert_eq!(disc.parts(), std::slice::from_ref(&made));
             let bits = |part: &Part| {
                 let (pose, at) = (part.pose(), part.placed().core()[0]);
                 [pose.x, pose.y, pose.theta, at.x, at.y, part.placed().radius()].map(f64::to_bits)
