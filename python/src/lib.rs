@@ -1,0 +1,17 @@
+//! The lab as a Python module: data moved in and out, the arithmetic all the library's.
+#![deny(missing_docs)]
+#![forbid(unsafe_code)]
+
+use pyo3::prelude::*;
+
+/// The compiled part of the package `motion_lab`.
+#[pymodule]
+mod _core {
+    use super::*;
+
+    /// The names of the built-in worlds.
+    #[pyfunction]
+    fn world_names() -> [&'static str; 3] {
+        motion_lab_core::worlds::World::built_in_names()
+    }
+}
