@@ -118,7 +118,7 @@ impl CheckedAxis {
         match (&self.over, &self.parameter) {
             (Over::Starts(starts), Parameter::Robot { kind, .. }) => {
                 let lengths = RobotKind::of(kind)?.lengths;
-                starts.iter().find_map(|start| WrittenCoordinate::all_turns(start, lengths).next())
+                starts.iter().find_map(|start| WrittenCoordinate::all_turns_in_ron(start, lengths).next())
             }
             (over, parameter) if parameter.form() == ValueForm::Number("rad") => {
                 over.written().into_iter().find_map(WrittenNumber::turns)

@@ -35,7 +35,7 @@ impl WrittenNumber {
     /// Of an angle that was written in radians and is more than a turn, what its writer may have meant.
     pub fn turns(self) -> Option<String> {
         match self {
-            WrittenNumber::Real(x) => WrittenCoordinate::number(x).turns(),
+            WrittenNumber::Real(x) => WrittenCoordinate::number(x).turns_in_ron(),
             WrittenNumber::Whole(_) | WrittenNumber::Degrees(_) => None,
         }
     }

@@ -57,15 +57,21 @@ impl AssignmentFile {
         &self.text.world
     }
 
+    /// Where an item of it begins, such as `world`, as messages have it: `exam.ron:1:25`.
+    pub fn place_of(&self, item: &str) -> String {
+        let Position { line, column } = place_of(&self.source, item);
+        format!("{}:{line}:{column}", self.file)
+    }
+
     /// What its writer may have meant by angles of more than a turn in the start and the goal, in the world it names.
     pub fn turns(&self, world: &World) -> Vec<String> {
         let AssignmentText { robot, start, goal, .. } = &self.text;
         let about = world.robots.iter().find(|known| known.name == *robot).and_then(|known| RobotKind::of(&known.kind));
         let Some(about) = about else { return Vec::new() };
         let of = |item: &'static str, written: &[WrittenCoordinate]| {
-            let turns: Vec<String> = WrittenCoordinate::all_turns(written, about.lengths).collect();
-            let Position { line, column } = place_of(&self.source, item);
-            turns.into_iter().map(move |turns| format!("{}:{line}:{column}: {item}: {turns}", self.file))
+            let turns: Vec<String> = WrittenCoordinate::all_turns_in_ron(written, about.lengths).collect();
+            let place = self.place_of(item);
+            turns.into_iter().map(move |turns| format!("{place}: {item}: {turns}"))
         };
         let start = start.as_deref().unwrap_or_default();
         of("start", start).chain(of("goal", &goal.at)).chain(of("goal", &goal.within)).collect()

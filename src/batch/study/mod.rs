@@ -167,7 +167,9 @@ impl Study {
             let lengths = RobotKind::of(&resident.kind)?.lengths;
             Some(format!(
                 "goal: {}",
-                [at, within].into_iter().find_map(|written| WrittenCoordinate::all_turns(written, lengths).next())?
+                [at, within]
+                    .into_iter()
+                    .find_map(|written| WrittenCoordinate::all_turns_in_ron(written, lengths).next())?
             ))
         };
         self.axes.iter().filter_map(of_axis).chain(of_goal()).collect()

@@ -52,7 +52,7 @@ impl NumberList {
 
 /// The values of coordinates, of which the first, this many, are lengths. Angles that were hardly meant are noted.
 pub fn values(written: &[WrittenCoordinate], lengths: usize) -> Result<Vec<f64>, String> {
-    WrittenCoordinate::all_turns(written, lengths).for_each(note);
+    written.iter().skip(lengths).filter_map(|coordinate| coordinate.turns()).for_each(note);
     WrittenCoordinate::values(written, lengths).map_err(|reason| reason.to_string())
 }
 

@@ -72,6 +72,15 @@ impl Failure {
         Failure::Input { reason: reason.to_string(), next: next.to_string() }
     }
 
+    /// The same failure; a wrong input is named by this place of another file.
+    #[must_use]
+    pub fn named_at(self, place: &str) -> Self {
+        match self {
+            Failure::Input { reason, next } => Failure::Input { reason: format!("{place}: {reason}"), next },
+            failure => failure,
+        }
+    }
+
     /// A wrong command line: what is wrong, and what to do next.
     pub fn usage(reason: impl Display, next: impl Display) -> Self {
         Failure::Usage { reason: reason.to_string(), next: next.to_string() }

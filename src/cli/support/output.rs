@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use motion_lab::output;
 
-use super::gate::{self, is_dash};
+use super::gate::{self, is_dash, shown};
 use super::target::Target;
 use crate::cli::{Data, Failure};
 
@@ -66,7 +66,14 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
     if is_dash(folder) {
         return Err(Failure::usage("-: this output is a folder, not for standard output", "Name a folder: -o FOLDER."));
     }
-    fs::create_dir_all(folder).map_err(|error| Failure::output(folder, &error))
+    fs::create_dir_all(folder).map_err(|error| match error.kind() {
+        io::ErrorKind::AlreadyExists | io::ErrorKind::NotADirectory => Failure::Output {
+            file: shown(folder),
+            reason: "this output is a folder, and a file is there".to_owned(),
+            next: "Name a folder, or one that there is not yet.".to_owned(),
+        },
+        _ => Failure::output(folder, &error),
+    })
 }
 
 /// Writes the whole file of a target.

@@ -12,16 +12,17 @@ use crate::cli::Failure;
 
 /// The world that `name` names: the built-in one of that name, else the file at that path.
 pub fn find_world(name: &str) -> Result<World, Failure> {
-    if let Some(world) = World::built_in(name) {
-        return Ok(world);
-    }
+    let unknown = match World::named(name) {
+        Ok(world) => return Ok(world),
+        Err(unknown) => unknown,
+    };
     let path = PathBuf::from(name);
     if !path.exists() && !is_dash(&path) {
         return Err(Failure::input(
             format!("{name}: no built-in world has this name, and there is no such file"),
             format!(
                 "{}The built-in worlds are {}; anything else is the path of a world file.",
-                did_you_mean(name, World::built_in_names()),
+                did_you_mean(&unknown.name, unknown.meant()),
                 built_in_list()
             ),
         ));

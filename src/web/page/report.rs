@@ -174,13 +174,21 @@ fn plan(plan: &PlanState) -> Value {
         crate::window::ui::plan::PlanStage::Growing => ("growing", None),
         crate::window::ui::plan::PlanStage::Solved => ("solved", None),
         crate::window::ui::plan::PlanStage::Ended(reason) => ("ended", Some(reason.to_string())),
-        crate::window::ui::plan::PlanStage::Read(_) => ("read", None),
+        crate::window::ui::plan::PlanStage::Read(_, judged) => {
+            ("read", judged.as_ref().and_then(|judged| judged.proof.as_ref().err()).map(ToString::to_string))
+        }
+    };
+    let clearance = match plan.stage() {
+        crate::window::ui::plan::PlanStage::Read(_, judged) => {
+            judged.as_ref().and_then(|judged| judged.proof.as_ref().ok().copied())
+        }
+        _ => plan.lengths().map(|lengths| lengths.clearance),
     };
     json!({
         "planner": plan.planner().id(), "robot": task.name, "world": task.world.name,
         "start": &task.start.coordinates()[..], "goal": &task.goal.coordinates()[..], "seed": plan.seed().to_string(),
         "stage": stage, "why": why, "iterations": plan.effort().iterations,
-        "length": plan.lengths().map(|l| l.length), "clearance": plan.lengths().map(|l| l.clearance),
+        "length": plan.lengths().map(|l| l.length), "clearance": clearance,
     })
 }
 

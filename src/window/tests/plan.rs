@@ -225,7 +225,8 @@ fn a_path_goes_to_a_file_and_comes_back_and_a_wrong_file_changes_nothing() {
     let read = plan(&harness);
     assert_eq!((&read.drawn().corners, &read.drawn().ends), (&drawn.corners, &drawn.ends));
     assert_eq!(read.drawn().edges.len(), drawn.edges.len());
-    harness.get_by_label_contains("nothing of it is proven here");
+    // as words and as the picture, for readers who do not see it
+    assert_eq!(harness.get_all_by_label_contains("Proven free, with a clearance of at least").count(), 2);
     let text = std::fs::read_to_string(&path).unwrap();
     assert_eq!(PathFile::read(&text).unwrap().names(), ["Workbench", "Reach"]);
     std::fs::write(&path, text.replacen("\"version\":1", "\"version\":9", 1)).unwrap();

@@ -25,6 +25,19 @@ fn script(events: &[(u64, &str)]) -> String {
     format!("Script(version: 1, events: [\n{}])", events.concat())
 }
 
+#[test]
+fn a_world_that_an_assignment_names_and_nobody_knows_has_its_place_in_the_assignment() {
+    let folder = folder(&[("ann.ron", script(&[]))]);
+    fs::write(folder.path().join("exam.ron"), ASSIGNMENT.replace("\"lot\"", "\"lott\"")).unwrap();
+    let refused = run_in(folder.path(), &["grade", "exam.ron", "ann.ron"]).failed(3);
+    assert!(refused.contains("exam.ron:3:12: lott: no built-in world has this name"), "{refused}");
+    assert!(refused.contains("Did you mean \"lot\"?"), "{refused}");
+    // a world file of another folder says where it is wrong, and who names it
+    fs::write(folder.path().join("lott"), "World(version: 1, name: 3)").unwrap();
+    let refused = run_in(folder.path(), &["grade", "exam.ron", "ann.ron"]).failed(3);
+    assert!(refused.contains("exam.ron:3:12: lott:1:"), "{refused}");
+}
+
 fn graded(folder: &Path, submissions: &[&str]) -> Run {
     run_in(folder, &[&["grade", "--json", "exam.ron"], submissions].concat())
 }

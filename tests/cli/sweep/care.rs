@@ -26,9 +26,16 @@ fn an_advice_leads_on() {
         let refused = run_in(at, &["sweep", "merge", "parts", "-o", output]).failed(1);
         assert!(refused.contains(output) && refused.contains("Make its folder first"), "{refused}");
     }
-    fs::write(at.join("file"), "").unwrap();
-    let refused = run_in(at, &["sweep", "plan.ron", "-o", "file"]).failed(1);
-    assert!(refused.contains("file: ") && refused.contains("Name another"), "{refused}");
+    fs::write(at.join("file"), "mine").unwrap();
+    for output in ["file", "file/rows", "plan.ron"] {
+        let before = fs::read(at.join("plan.ron")).unwrap();
+        let refused = run_in(at, &["sweep", "plan.ron", "-o", output]).failed(1);
+        assert!(refused.contains(&format!("{output}: this output is a folder, and a file is there")), "{refused}");
+        assert_eq!(
+            (fs::read(at.join("plan.ron")).unwrap(), &*fs::read(at.join("file")).unwrap()),
+            (before, &b"mine"[..])
+        );
+    }
     // a part without a byte, as some file systems leave one after a power cut
     let part = at.join("parts/part-1-of-1.sweep");
     let whole = fs::read(&part).unwrap();

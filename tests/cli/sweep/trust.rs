@@ -117,7 +117,7 @@ fn what_lies_outside_the_world_is_refused_by_name_and_more_than_a_turn_is_noted(
     };
     let (said, _) = turned("Values([0, 90, 180])");
     assert!(
-        said.contains("plan.ron: Rusty.start.theta: 90 rad is 14.3 turns; angles are radians; write 90deg"),
+        said.contains("plan.ron: Rusty.start.theta: 90 rad is 14.3 turns; angles are radians; write \"90deg\""),
         "{said}"
     );
     let (said, thetas) = turned("Values([0, \"90deg\", \"-45deg\"])");

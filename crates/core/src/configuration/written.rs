@@ -65,12 +65,21 @@ impl WrittenCoordinate {
     /// Of an angle that was written in radians and is more than a turn, what its writer may have meant; `None` of
     /// another angle.
     pub fn turns(self) -> Option<String> {
+        self.turns_between("")
+    }
+
+    /// As [`turns`](Self::turns), of an angle of a RON file, which has degrees in quotes: `write "90deg"`.
+    pub fn turns_in_ron(self) -> Option<String> {
+        self.turns_between("\"")
+    }
+
+    fn turns_between(self, quote: &str) -> Option<String> {
         let WrittenCoordinate { value, is_degrees } = self;
         if is_degrees || !value.is_finite() || value.abs() <= TAU {
             return None;
         }
         let turns = value.abs() / TAU;
-        Some(format!("{value} rad is {turns:.1} turns; angles are radians; write {value}deg"))
+        Some(format!("{value} rad is {turns:.1} turns; angles are radians; write {quote}{value}deg{quote}"))
     }
 
     /// The values of a configuration whose first coordinates, this many, are lengths.
@@ -87,10 +96,10 @@ impl WrittenCoordinate {
         }
     }
 
-    /// What the writer of a configuration may have meant by its angles, which follow on this many lengths: one sentence
-    /// for each that is [more than a turn](Self::turns).
-    pub fn all_turns(written: &[Self], lengths: usize) -> impl Iterator<Item = String> + '_ {
-        written.iter().skip(lengths).filter_map(|coordinate| coordinate.turns())
+    /// What the writer of a configuration in a RON file may have meant by its angles, which follow on this many
+    /// lengths: one sentence for each that is [more than a turn](Self::turns_in_ron).
+    pub fn all_turns_in_ron(written: &[Self], lengths: usize) -> impl Iterator<Item = String> + '_ {
+        written.iter().skip(lengths).filter_map(|coordinate| coordinate.turns_in_ron())
     }
 }
 
@@ -179,6 +188,8 @@ mod tests {
         // 90 / (2 pi) is 14.32
         assert_eq!(turns("90").unwrap(), "90 rad is 14.3 turns; angles are radians; write 90deg");
         assert_eq!(turns("-180").unwrap(), "-180 rad is 28.6 turns; angles are radians; write -180deg");
+        let in_ron = read("-180").unwrap().turns_in_ron().unwrap();
+        assert_eq!(in_ron, "-180 rad is 28.6 turns; angles are radians; write \"-180deg\"");
         for fine in ["6.283185307179586", "-6.283185307179586", "450deg", "0", "inf"] {
             assert_eq!(turns(fine), None, "{fine}");
         }

@@ -144,12 +144,24 @@ pub fn accepted<R: Robot, M: Motion<Configuration = R::Configuration> + Clone + 
     let is_unproven = planner.search().unproven.is_some();
     let none = || if is_unproven { PathError::Unproven } else { PathError::Missing };
     let (path, problem) = (planner.path().ok_or_else(none)?, planner.problem());
-    if !is_same(&path.start(), &problem.start()) || !problem.is_goal(&path.goal()) {
-        return Err(PathError::OtherEnds);
-    }
-    path.verify(problem.checker().scene())?;
-    keeps_inside(problem, path.legs().iter().map(|leg| leg.motion()))?;
+    path.solves(problem)?;
     Ok(path.clone())
+}
+
+impl<M: Motion> CertifiedPath<M> {
+    /// Checks that the path solves a problem, whoever found it: it leads from the start to the goal, its certificates
+    /// stand [`verify`](Self::verify), and it keeps within the scene's bounds. Returns the proven clearance, metres.
+    ///
+    /// # Errors
+    /// [`PathError`]: what is not so.
+    pub fn solves<R: Robot<Configuration = M::Configuration>>(&self, problem: &Problem<R>) -> Result<f64, PathError> {
+        if !is_same(&self.start(), &problem.start()) || !problem.is_goal(&self.goal()) {
+            return Err(PathError::OtherEnds);
+        }
+        let clearance = self.verify(problem.checker().scene())?;
+        keeps_inside(problem, self.legs().iter().map(|leg| leg.motion()))?;
+        Ok(clearance)
+    }
 }
 
 /// Checks that the motions of a path keep within the bounds of a problem's scene.

@@ -3,6 +3,7 @@
 use std::sync::LazyLock;
 
 use super::World;
+use crate::names::{hint, nearest};
 
 /// Reads a world that is part of this program.
 #[expect(clippy::panic, reason = "the text is a constant of the program, and a test reads each of the three")]
@@ -45,6 +46,38 @@ impl World {
             "workbench" => Some(Self::workbench()),
             "lot" => Some(Self::lot()),
             _ => None,
+        }
+    }
+
+    /// The built-in world of this name.
+    ///
+    /// # Errors
+    /// [`UnknownWorld`] when there is none; it names the one that was meant, if one is near.
+    pub fn named(name: &str) -> Result<World, UnknownWorld> {
+        Self::built_in(name).ok_or_else(|| UnknownWorld { name: name.to_owned() })
+    }
+}
+
+/// There is no built-in world of this name.
+///
+/// Prints as `no built-in world is named "apartmnt"; did you mean "apartment"?`
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no built-in world is named {name:?}{}", self.instead())]
+pub struct UnknownWorld {
+    /// The name.
+    pub name: String,
+}
+
+impl UnknownWorld {
+    /// The built-in world that was meant; `None` if none is near.
+    pub fn meant(&self) -> Option<&'static str> {
+        nearest(&self.name, World::built_in_names())
+    }
+
+    fn instead(&self) -> String {
+        match self.meant() {
+            None => format!("; there are {}", World::built_in_names().join(", ")),
+            meant => hint(meant),
         }
     }
 }

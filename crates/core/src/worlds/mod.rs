@@ -93,6 +93,7 @@ mod warehouse;
 
 pub use beam::{BeamError, BeamModel};
 pub use builder::WorldBuilder;
+pub use built_in::UnknownWorld;
 pub use convex_pieces::{MAX_CONCAVE_VERTICES, OutlineError, convex_pieces};
 pub use error::{WorldError, WorldItem, WorldProblem};
 pub use file::comments::comments;

@@ -34,7 +34,7 @@ pub use error::CaptureError;
 pub use film::Film;
 pub use histogram::{Distribution, histograms};
 pub use moving::{CaptureSpan, Subject, at_tick, at_tick_with_robots};
-pub use plan::{PlanOutcome, PlanSheet, plan, proven, unit};
+pub use plan::{PlanOutcome, PlanSheet, judged_words, plan, proven, unit};
 pub use plot::{RunPlot, plot};
 pub use run_figure::{RunFigure, run_svg, with_names};
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};

@@ -2,7 +2,7 @@
 
 use super::Captured;
 use crate::manifest::Widget;
-use crate::plans::{Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
+use crate::plans::{Drawn, JudgedPath, PathLengths, PlannerName, Task, space_items, workspace_items};
 use motion_lab_core::cspace::{CellMap, cspace_picture};
 use motion_lab_core::picture::{Figure, Panel, world};
 use motion_lab_core::planning::Effort;
@@ -18,8 +18,9 @@ pub enum PlanOutcome<'a> {
     Path(PathLengths),
     /// No path: the planner has ended.
     None,
-    /// What is drawn is that of a file of this name, whoever planned it.
-    File(&'a str),
+    /// What is drawn is that of a file of this name, whoever planned it, with what the exact scene says of it; nothing
+    /// where nothing was judged.
+    File(&'a str, Option<&'a JudgedPath>),
 }
 
 /// A plan to be captured.
@@ -65,15 +66,16 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
             readout.push("no path yet".to_owned());
             format!("{by}: no path so far.")
         }
-        PlanOutcome::File(_) => {
-            readout = vec!["as the file says; nothing of it is proven here".to_owned()];
-            "A path from a file; nothing of it is proven here.".to_owned()
+        PlanOutcome::File(_, judged) => {
+            let judged = judged_words(judged);
+            readout = vec![judged.clone()];
+            format!("A path from a file. {judged}.")
         }
     };
     let rounds = drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
     readout.extend(rounds.map(|(i, point)| format!("round {}: {point}", i + 1)));
     let (heading, source) = match found {
-        PlanOutcome::File(name) => (name, vec![("File", name.to_owned())]),
+        PlanOutcome::File(name, _) => (name, vec![("File", name.to_owned())]),
         _ => (planner.title(), vec![("Planner", planner.id().to_owned()), ("Seed", seed.to_string())]),
     };
     let workspace = world(&task.world).with(workspace_items(&task.robot, drawn));
@@ -92,6 +94,15 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
         caption: vec![Widget::Plan.text().misconception.clone()],
     };
     Captured { figure, notes }
+}
+
+/// What the exact scene says of a path of a file, in words; of a file of which nothing was judged, that it says so.
+pub fn judged_words(judged: Option<&JudgedPath>) -> String {
+    match judged.map(|judged| &judged.proof) {
+        Some(Ok(clearance)) => format!("Proven free, with a clearance of at least {} m", proven(*clearance)),
+        Some(Err(reason)) => format!("It fails: {reason}"),
+        None => "Drawn as it says; nothing of it is proven here".to_owned(),
+    }
 }
 
 /// A proven clearance in metres, in words: rounded down, so that no more is claimed than is proven, with the digits

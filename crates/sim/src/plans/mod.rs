@@ -20,6 +20,7 @@ mod attempt;
 mod bug1_sensor;
 mod checker_name;
 mod drawn;
+mod judged;
 mod named;
 mod path_file;
 mod picture;
@@ -29,6 +30,7 @@ pub use attempt::{FileLeg, LegControl, LegMotion, PathLengths, PlanAttempt, Tria
 pub use bug1_sensor::{Bug1Sensor, Bug1Walk, WalkEnd};
 pub use checker_name::CheckerName;
 pub use drawn::{Drawn, Rejected};
+pub use judged::{JudgedPath, MAX_JUDGED};
 pub use named::PlannerName;
 pub use path_file::{Counts, MAX_PATH_BYTES, PathFile, PathFileError};
 pub use picture::{space_items, workspace_items};

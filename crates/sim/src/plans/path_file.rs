@@ -4,11 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use super::attempt::{FileLeg, LegControl, PlanAttempt};
 use super::drawn::Drawn;
+use super::judged::{DRAWN, FileMotion, JudgedPath};
 use super::task::Task;
 use crate::export::{JsonNumber, json_seed, read_json_seed};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, RobotKind};
 use motion_lab_core::planning::Effort;
-use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, Motion};
+use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, Robot};
 
 /// The version of the format. Readers refuse versions that they don't know.
 const VERSION: u32 = 1;
@@ -19,10 +20,7 @@ pub const MAX_PATH_BYTES: usize = 64 << 20;
 /// Largest number of legs, of nodes and of edges that are read: each line becomes some hundred bytes of a picture.
 const MAX_LINES: usize = 300_000;
 
-/// The number of straight pieces in which a motion is drawn.
-const DRAWN: u32 = 6;
-
-/// Longest drive of one leg that is drawn, seconds.
+/// Longest drive of one leg that is read, seconds.
 const MAX_SECONDS: f64 = 3600.0;
 
 /// What a planner has done.
@@ -182,22 +180,24 @@ impl LegLine {
         }
     }
 
-    /// The configurations along it, of which `from` is the first.
-    fn along(&self, leg: usize, robot: &AnyRobot) -> Result<Vec<AnyConfiguration>, PathFileError> {
+    /// The motion that it says.
+    fn motion(&self, leg: usize, robot: &AnyRobot) -> Result<FileMotion, PathFileError> {
         let [from, to] = [("from", &self.from), ("to", &self.to)];
         let at =
             |(end, numbers): (&str, &Vec<JsonNumber>)| configuration(robot, numbers, || format!("legs[{leg}].{end}"));
         let (a, b) = (at(from)?, at(to)?);
         let kind = || PathFileError::Leg { leg, kind: self.kind.clone() };
         match (&*self.kind, &self.control, robot, a) {
-            ("chart line", None, ..) => Ok(chart_line(&a, &b)),
+            ("chart line", None, ..) => {
+                let other = |_| PathFileError::Configuration { field: format!("legs[{leg}].to") };
+                Ok(FileMotion::Line(Box::new(robot.edge(&a, &b).map_err(other)?)))
+            }
             ("drive", Some(control), AnyRobot::Hitch(car), AnyConfiguration::Hitch(q)) => {
                 let ControlLine { v, phi, seconds } = control;
                 let command = CarCmd { v: v.0, phi: phi.0 };
                 let is_short = seconds.0 >= 0.0 && seconds.0 <= MAX_SECONDS;
                 let arc = is_short.then(|| car.drive(&q, &command, seconds.0).ok()).flatten().ok_or_else(kind)?;
-                let parts = (0..=DRAWN).map(|i| arc.at(f64::from(i) / f64::from(DRAWN)));
-                Ok(parts.map(AnyConfiguration::Hitch).collect())
+                Ok(FileMotion::Drive(Box::new(arc)))
             }
             _ => Err(kind()),
         }
@@ -262,7 +262,8 @@ impl PathFile {
         serde_json::to_string(self).map(|line| line + "\n")
     }
 
-    /// Reads a file. Nothing of it is believed but where lines are drawn: whether they are free is asked anew.
+    /// Reads a file. Nothing of it is believed but where its motions lie: whether they are free is
+    /// [asked anew](Self::judged).
     ///
     /// # Errors
     /// [`PathFileError`] names the field.
@@ -302,6 +303,20 @@ impl PathFile {
         Ok((robot, [start, goal]))
     }
 
+    /// The motions of its legs, for `robot`, one of its kind that may have sizes of its own.
+    fn motions(&self, robot: &AnyRobot) -> Result<Vec<FileMotion>, PathFileError> {
+        self.legs.iter().enumerate().map(|(number, leg)| leg.motion(number, robot)).collect()
+    }
+
+    /// What the exact scene says of its path for a task, whose robot, scene and ends count. `None` where there is
+    /// nothing to judge: no leg, or more than [`MAX_JUDGED`](super::MAX_JUDGED).
+    ///
+    /// # Errors
+    /// [`PathFileError`] names what is not a plan of the task's robot.
+    pub fn judged(&self, task: &Task) -> Result<Option<JudgedPath>, PathFileError> {
+        Ok(JudgedPath::of(&self.motions(&task.robot)?, task))
+    }
+
     /// What there is to draw of it for `robot`, one of its kind that may have sizes of its own.
     ///
     /// # Errors
@@ -309,9 +324,9 @@ impl PathFile {
     pub fn drawn(&self, robot: &AnyRobot) -> Result<Drawn, PathFileError> {
         let (_, ends) = self.robot()?;
         let (mut path, mut corners) = (Vec::new(), Vec::new());
-        for (number, leg) in self.legs.iter().enumerate() {
-            let along = leg.along(number, robot)?;
-            if number == 0 {
+        for motion in self.motions(robot)? {
+            let along = motion.drawn();
+            if corners.is_empty() {
                 corners.extend(along.first());
             }
             corners.extend(along.last());

@@ -178,7 +178,8 @@ fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
         Failure::input(error, next)
     };
     let file = AssignmentFile::parse(&path.display().to_string(), &read_text(path)?).map_err(refused)?;
-    let world = find_world_beside(path, file.world_name())?;
+    let world =
+        find_world_beside(path, file.world_name()).map_err(|failure| failure.named_at(&file.place_of("world")))?;
     file.turns(&world).into_iter().for_each(note);
     file.in_world(world).map_err(refused)
 }

@@ -83,8 +83,9 @@ Examples:
     /// A row is `tick,robot,input` and the input's values: `1,Rusty,Drive,64,-20` (parts in 128 of the maximum),
     /// `5,Reach,MoveTo,0.785,90deg` and `7,Rusty,Teleport,2.25,6.25,0` (metres, and radians or degrees, rounded to
     /// 2^-20), `9,Hitch,SetTrailer,on`, `12,Rusty,Release`. Ticks ascend. A first row that begins with `tick` is a
-    /// heading; empty rows and rows that begin with # are left out. Semicolons or tabs may stand between the values,
-    /// numbers may then have decimal commas; whole numbers may end in `.0`, `on` may be `TRUE`. Any line ends will do.
+    /// heading; empty rows and rows that begin with # are left out. Semicolons, tabs or bars may stand between the
+    /// values, numbers may then have decimal commas; whole numbers may end in `.0`, `on` may be `TRUE`. Any line ends
+    /// will do.
     #[command(after_help = "\
 Examples:
   motion-lab script convert drive.csv -o drive.ron")]

@@ -17,12 +17,7 @@ pub fn study(path: &Path) -> Result<Study, Failure> {
     let refused =
         |error: StudyError| Failure::input(error, "Correct it there. docs/sweeps.md says what a study may hold.");
     let file = StudyFile::parse(&shown(path), &read_text(path)?).map_err(refused)?;
-    let named_at = |name: &str, failure| match failure {
-        Failure::Input { reason, next } => {
-            Failure::Input { reason: format!("{}: {reason}", file.place_of(name)), next }
-        }
-        failure => failure,
-    };
+    let named_at = |name: &str, failure: Failure| failure.named_at(&file.place_of(name));
     let mut worlds = BTreeMap::new();
     for name in file.world_names() {
         let world = find_world_beside(path, name).map_err(|failure| named_at(name, failure))?;

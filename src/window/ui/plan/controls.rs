@@ -45,7 +45,7 @@ fn goes_on(plan: &PlanState) -> bool {
     match plan.stage() {
         PlanStage::Growing => true,
         PlanStage::Solved => plan.improves(),
-        PlanStage::Ended(_) | PlanStage::Read(_) => false,
+        PlanStage::Ended(_) | PlanStage::Read(..) => false,
     }
 }
 

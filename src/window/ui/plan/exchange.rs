@@ -6,14 +6,14 @@ use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::{self, Captured, PlanOutcome, PlanSheet};
-use motion_lab_sim::plans::{PathFile, PathFileError, Task};
+use motion_lab_sim::plans::{Drawn, PathFile, PathFileError, Task};
 use motion_lab_sim::simulation::{PlayError, PlayedPath};
 
 impl PlanState {
     /// The command line that plans this; `None` in a world that no command knows by name, for a file's path, and for a
     /// sensor that lies: the command's is exact.
     pub fn command(&self) -> Option<String> {
-        if matches!(self.stage, PlanStage::Read(_)) || self.is_by_sensor() && self.sensor_lies() {
+        if matches!(self.stage, PlanStage::Read(..)) || self.is_by_sensor() && self.sensor_lies() {
             return None;
         }
         let (Task { name, start, goal, .. }, world) = (&self.task, self.known_as?);
@@ -51,11 +51,14 @@ impl PlanState {
         let resident = world.robots.iter().find(|r| r.name == robot_name).and_then(AnyRobot::of_resident);
         let resident = resident.map(|(robot, _)| robot).filter(|robot| robot.like(&start).is_some());
         let robot = resident.unwrap_or(kind);
-        let drawn = file.drawn(&robot)?;
         // a name that no robot has is the file's word only: what is copied as a command repeats the task's
         let robot_name = if resident.is_some() { robot_name } else { robot.title() }.to_owned();
-        self.take(Task::new(robot_name, robot, world, [start, goal]));
-        (self.work, self.stage) = (None, PlanStage::Read(name.to_owned()));
+        let task = Task::new(robot_name, robot, world, [start, goal]);
+        let judged = file.judged(&task)?;
+        let rejected = judged.as_ref().and_then(|judged| judged.hit.clone());
+        let drawn = Drawn { rejected, ..file.drawn(&robot)? };
+        self.take(task);
+        (self.work, self.stage) = (None, PlanStage::Read(name.to_owned(), judged));
         self.draw(drawn);
         Ok(())
     }
@@ -69,7 +72,7 @@ impl PlanState {
             drawn: &self.drawn,
             effort: self.effort,
             found: match (&self.stage, self.lengths()) {
-                (PlanStage::Read(file), _) => PlanOutcome::File(file),
+                (PlanStage::Read(file, judged), _) => PlanOutcome::File(file, judged.as_ref()),
                 (_, Some(lengths)) => PlanOutcome::Path(lengths),
                 (PlanStage::Ended(_), None) => PlanOutcome::None,
                 _ => PlanOutcome::Growing,

@@ -16,7 +16,7 @@ use motion_lab_core::picture::{Role, in_signs};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::capture::{proven, unit};
+use motion_lab_sim::capture::{judged_words, proven, unit};
 use motion_lab_sim::plans::{PathLengths, PlannerName, TUBE, Task};
 
 /// Width of a chooser, points.
@@ -186,7 +186,7 @@ fn seed(ui: &mut Ui, plan: &mut PlanState) {
 fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
     let effort = plan.effort();
     let monospace = |text: String| RichText::new(text).monospace();
-    if !matches!(plan.stage(), PlanStage::Read(_)) {
+    if !matches!(plan.stage(), PlanStage::Read(..)) {
         ui.label(monospace(format!("{:>6} iterations  {:>6} samples", effort.iterations, effort.samples)));
         ui.label(monospace(format!("{:>6} edges asked {:>6} free", effort.edges, effort.free)));
     }
@@ -206,11 +206,15 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
             }
         }
         PlanStage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
-        PlanStage::Read(name) => {
+        PlanStage::Read(name, judged) => {
             let drawn = plan.drawn();
             ui.label(format!("{name}: {}, {} edges", drawn.legs(), drawn.edges.len()));
-            let words = "Drawn as the file says; nothing of it is proven here.";
-            ui.label(RichText::new(words).color(look.colour(Role::Muted)));
+            let words = format!("{}.", judged_words(judged.as_ref()));
+            match judged.as_ref().map(|judged| judged.proof.is_ok()) {
+                Some(true) => headline(ui, &words, look.colour(Role::Text)),
+                Some(false) => refusal(ui, &words, look),
+                None => _ = ui.label(RichText::new(words).color(look.colour(Role::Muted))),
+            }
         }
     }
 }

@@ -12,8 +12,11 @@ use motion_lab_core::picture::{Item, Picture, world as picture_of};
 use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::World;
+use motion_lab_sim::capture::judged_words;
 use motion_lab_sim::manifest::HintTask;
-use motion_lab_sim::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Task, space_items, workspace_items};
+use motion_lab_sim::plans::{
+    Bug1Walk, Drawn, JudgedPath, PathLengths, PlannerName, Task, space_items, workspace_items,
+};
 use motion_lab_sim::run::Event;
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
@@ -45,8 +48,8 @@ pub enum PlanStage {
     Solved,
     /// There is no path, for this reason.
     Ended(NoPath),
-    /// The path is a file's, of this name.
-    Read(String),
+    /// The path is a file's, of this name, with what the exact scene says of it; nothing where nothing was judged.
+    Read(String, Option<JudgedPath>),
 }
 
 /// The state of the widget that plans.
@@ -211,7 +214,10 @@ impl PlanState {
             PlanStage::Growing => format!("{} edges so far", self.drawn.edges.len()),
             PlanStage::Solved => format!("a path of {}", self.drawn.legs()),
             PlanStage::Ended(reason) => reason.to_string(),
-            PlanStage::Read(file) => return format!("the file {file} for {name}, from {start} to {goal}"),
+            PlanStage::Read(file, judged) => {
+                let judged = judged_words(judged.as_ref());
+                return format!("the file {file} for {name}, from {start} to {goal}. {judged}");
+            }
         };
         let left = self.drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
         let left: String = left.map(|(i, point)| format!("; round {}: {point}", i + 1)).collect();

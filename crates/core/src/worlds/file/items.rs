@@ -64,13 +64,17 @@ fn make_box(min: Point2, max: Point2) -> Result<Shape, WorldProblem> {
     Ok(Shape::try_rectangle(min, max)?)
 }
 
-/// Returns the points of a polyline and its segments. A closed polyline repeats its first point at the end.
+/// Returns the points of a polyline and its segments. A closed polyline repeats its first point at the end, whether its
+/// text does, as polygons of other programs do, or not.
 fn make_polyline(text: &PolylineText) -> Result<(Vec<Point2>, Vec<Shape>), WorldProblem> {
     let least = if text.closed { 3 } else { 2 };
-    if text.points.len() < least {
-        return Err(WorldProblem::TooFewPoints { found: text.points.len(), least });
-    }
     let mut points: Vec<Point2> = text.points.iter().map(|&xy| point(xy)).collect();
+    if text.closed && points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    if points.len() < least {
+        return Err(WorldProblem::TooFewPoints { found: points.len(), least });
+    }
     if text.closed {
         points.push(points[0]);
     }

@@ -87,7 +87,7 @@ impl World {
 pub fn turns(text: &str) -> Vec<String> {
     let Ok(file) = (FileText { file: "", text }).read() else { return Vec::new() };
     let places = file.places.iter().filter_map(|place| {
-        let note = place.pose.theta.turns()?;
+        let note = place.pose.theta.turns_in_ron()?;
         Some(format!("the place {}: {note}", place.name))
     });
     places.chain(file.robots.iter().flat_map(turns_of)).collect()
@@ -96,16 +96,17 @@ pub fn turns(text: &str) -> Vec<String> {
 fn turns_of(robot: &RobotText) -> Vec<String> {
     let name = &robot.name;
     let start = RobotKind::of(&robot.kind)
-        .and_then(|known| WrittenCoordinate::all_turns(&robot.start, known.lengths).next())
+        .and_then(|known| WrittenCoordinate::all_turns_in_ron(&robot.start, known.lengths).next())
         .map(|note| format!("the start of {name}: {note}"));
     let car = robot.car.iter().flat_map(|car| {
         let jackknife = car.trailer.as_ref().and_then(|trailer| trailer.jackknife);
         [("max_steer", car.max_steer), ("jackknife", jackknife)]
     });
-    let car = car.filter_map(|(field, angle)| Some(format!("the {field} of {name}: {}", angle?.turns()?)));
+    let car = car.filter_map(|(field, angle)| Some(format!("the {field} of {name}: {}", angle?.turns_in_ron()?)));
     let sensors = robot.sensors.iter().flat_map(|sensor| {
         let angles = [("mount", sensor.mount.map(|mount| mount.theta)), ("field_of_view", sensor.field_of_view)];
-        angles.map(|(field, angle)| Some(format!("the {field} of {name}'s {}: {}", sensor.name, angle?.turns()?)))
+        angles
+            .map(|(field, angle)| Some(format!("the {field} of {name}'s {}: {}", sensor.name, angle?.turns_in_ron()?)))
     });
     start.into_iter().chain(car).chain(sensors.flatten()).collect()
 }

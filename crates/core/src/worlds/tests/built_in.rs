@@ -17,6 +17,15 @@ fn all_three_are_built_in_under_their_names() {
     assert_eq!(World::built_in("attic"), None);
 }
 
+#[test]
+fn an_unknown_name_is_answered_with_the_one_that_was_meant() {
+    let refused = |name| World::named(name).unwrap_err().to_string();
+    assert_eq!(refused("Apartmnt"), "no built-in world is named \"Apartmnt\"; did you mean \"apartment\"?");
+    assert_eq!(refused("LOT"), "no built-in world is named \"LOT\"; did you mean \"lot\"?");
+    assert_eq!(refused("attic"), "no built-in world is named \"attic\"; there are apartment, workbench, lot");
+    assert_eq!(World::named("lot"), Ok(World::lot()));
+}
+
 /// Everything that collides, as sorted lists of bit patterns: segments and polygon edges with their ends in order,
 /// discs.
 fn features(world: &World, mirrored: bool) -> Vec<[u64; 5]> {

@@ -280,7 +280,7 @@ fn every_angle_of_a_world_file_may_be_in_degrees() {
 
     let noted = turns(&file(["90", "-180", "60", "30", "80", "45"]));
     let says = |what: &str, n: &str, turns: &str| {
-        format!("the {what}: {n} rad is {turns} turns; angles are radians; write {n}deg")
+        format!("the {what}: {n} rad is {turns} turns; angles are radians; write \"{n}deg\"")
     };
     // 90, 45, 30, 80, 180 and 60 over 2 pi are 14.32, 7.16, 4.77, 12.73, 28.65 and 9.55
     let expected = [

@@ -51,6 +51,7 @@ fn tables_with_semicolons_have_decimal_commas() {
         "1,0;Hitch;Drive;128,0;-64,0;;\n9;Rusty;Teleport;2,25;6.25;0,0;\n;;;;;\n20;\"Hitch\";SetTrailer;True;;\n",
         "sep=;\r\n1;Hitch;Drive;128;-64\r\n9;Rusty;Teleport;2,25;6,25;0\r\n20;Hitch;SetTrailer;on",
         "tick\trobot\n1\tHitch\tDrive\t128\t-64\n9\tRusty\tTeleport\t2,25\t6.25\t0\n20\tHitch\tSetTrailer\ton\t\t",
+        "tick|robot|input|values\n1|Hitch|Drive|128|-64\n9|Rusty|Teleport|2.25|6,25|0\n20|Hitch|SetTrailer|on|\n",
     ] {
         assert_eq!(script(table, None).as_ref(), Ok(&expected), "{table}");
     }
