@@ -191,14 +191,26 @@ fn cuts_of_cuts_take_bounded_time() {
 }
 
 #[test]
+fn a_clip_of_many_corners_in_a_style_sheet_cuts() {
+    // thirty teeth, 0.5 wide and 4 high: triangles of area 1
+    let tooth = |k: u8| (15.0 - 0.5 * f64::from(k), 14.75 - 0.5 * f64::from(k));
+    let teeth: String = (0..30).map(tooth).map(|(foot, tip)| format!("{foot}px 8px, {tip}px 4px, ")).collect();
+    let style = format!("<style>#box{{clip-path:polygon({teeth}0px 8px)}}</style>");
+    assert!(style.len() > 600);
+    let found = drawn(&format!("{style}<rect id='box' width='20' height='10'/>"));
+    assert!((area(&found.world, "box") - 30.0).abs() < 1e-6, "{:?} {}", found.notes, area(&found.world, "box"));
+    assert_eq!(extent(&found.world, "box"), [0.0, 2.0, 15.0, 6.0]);
+}
+
+#[test]
 fn what_repeats_long_attributes_is_refused() {
     let long = format!("<g id='u' transform='{}'>{BOX}</g>", "translate(0)".repeat(100_000));
     let text = super::sheet(&format!("{long}{}", "<use href='#u'/>".repeat(100)));
     let error = motion_lab_import::svg("d.svg", &text, "d", super::SvgOptions::default()).unwrap_err();
     assert!(error.to_string().contains("bytes of attributes"), "{error}");
-    let rule = format!("<style>rect{{transform:{}}}</style>{BOX}", "translate(0)".repeat(20));
+    let rule = format!("<style>rect{{transform:{}}}</style>{BOX}", "translate(0)".repeat(1_000));
     let error = motion_lab_import::svg("d.svg", &super::sheet(&rule), "d", super::SvgOptions::default()).unwrap_err();
-    assert!(error.to_string().contains("a `transform` of more than 200 bytes in a style sheet"), "{error}");
+    assert!(error.to_string().contains("a `transform` of more than 10000 bytes in a style sheet"), "{error}");
 }
 
 #[test]
