@@ -2,6 +2,14 @@
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
+mod answers;
+mod arrays;
+mod errors;
+mod pool;
+mod robot;
+mod shapes;
+mod world;
+
 use pyo3::prelude::*;
 
 /// The compiled part of the package `motion_lab`.
@@ -14,4 +22,14 @@ mod _core {
     fn world_names() -> [&'static str; 3] {
         motion_lab_core::worlds::World::built_in_names()
     }
+
+    // questions
+    #[pymodule_export]
+    use crate::errors::{ConfigurationError, Error, LogError, NoPath, RunError, WorldError};
+    #[pymodule_export]
+    use crate::pool::{set_threads, threads};
+    #[pymodule_export]
+    use crate::robot::{PyDisc, PyHitch, PyReach, PyRobot, PyRusty};
+    #[pymodule_export]
+    use crate::world::{PyObstacle, PyResident, PyWorld};
 }
