@@ -5,9 +5,20 @@
 mod answers;
 mod arrays;
 mod errors;
+mod file;
+mod frame;
+mod interrupt;
+mod path;
+mod picture;
+mod planning;
 mod pool;
+mod recorder;
 mod robot;
+mod run;
+mod script;
 mod shapes;
+mod table;
+mod verification;
 mod world;
 
 use pyo3::prelude::*;
@@ -32,4 +43,20 @@ mod _core {
     use crate::robot::{PyDisc, PyHitch, PyReach, PyRobot, PyRusty};
     #[pymodule_export]
     use crate::world::{PyObstacle, PyResident, PyWorld};
+
+    // plans and runs
+    #[pymodule_export]
+    use crate::frame::PyFrame;
+    #[pymodule_export]
+    use crate::path::PyPath;
+    #[pymodule_export]
+    use crate::picture::PyPicture;
+    #[pymodule_export]
+    use crate::planning::{plan, planner_names};
+    #[pymodule_export]
+    use crate::recorder::PyRecorder;
+    #[pymodule_export]
+    use crate::run::{PyRun, read, record};
+    #[pymodule_export]
+    use crate::verification::{PyDifference, PyVerification};
 }

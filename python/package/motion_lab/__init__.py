@@ -26,6 +26,21 @@ from ._core import (
     world_names,
 )
 
+# plans and runs
+from ._core import (
+    Difference,
+    Frame,
+    Path,
+    Picture,
+    Recorder,
+    Run,
+    Verification,
+    plan,
+    planner_names,
+    read,
+    record,
+)
+
 if TYPE_CHECKING:
     from ._answers import FREE, HIT, UNRESOLVED, Edge, Shape, Verdict, Witness
 
@@ -34,23 +49,34 @@ __all__ = [
     "HIT",
     "UNRESOLVED",
     "ConfigurationError",
+    "Difference",
     "Disc",
     "Edge",
     "Error",
+    "Frame",
     "Hitch",
     "LogError",
     "NoPath",
     "Obstacle",
+    "Path",
+    "Picture",
     "Reach",
+    "Recorder",
     "Resident",
     "Robot",
+    "Run",
     "RunError",
     "Rusty",
     "Shape",
     "Verdict",
+    "Verification",
     "Witness",
     "World",
     "WorldError",
+    "plan",
+    "planner_names",
+    "read",
+    "record",
     "set_threads",
     "threads",
     "world_names",
