@@ -4,8 +4,11 @@
 
 mod answers;
 mod arrays;
+mod buffers;
+mod episodes;
 mod errors;
 mod file;
+mod fleet;
 mod frame;
 mod interrupt;
 mod path;
@@ -59,4 +62,10 @@ mod _core {
     use crate::run::{PyRun, read, record};
     #[pymodule_export]
     use crate::verification::{PyDifference, PyVerification};
+
+    // environments
+    #[pymodule_export]
+    use crate::episodes::PyEpisodes;
+    #[pymodule_export]
+    use crate::fleet::PyFleet;
 }
