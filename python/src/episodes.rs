@@ -113,7 +113,7 @@ impl PyEpisodes {
 #[pymethods]
 impl PyEpisodes {
     #[new]
-    fn new(task: &str, count: usize, autoreset: &str) -> PyResult<Self> {
+    fn new(py: Python<'_>, task: &str, count: usize, autoreset: &str) -> PyResult<Self> {
         let autoreset = match autoreset {
             "NextStep" => Autoreset::NextStep,
             "SameStep" => Autoreset::SameStep,
@@ -123,7 +123,9 @@ impl PyEpisodes {
                 return Err(Error::new_err(words));
             }
         };
-        Ok(PyEpisodes { episodes: AnyEpisodes::new(task, count, autoreset)? })
+        // the first observations are made here, by all threads where there are many
+        let episodes = pool::install(py, || AnyEpisodes::new(task, count, autoreset))??;
+        Ok(PyEpisodes { episodes })
     }
 
     /// How many episodes go on together.
