@@ -4,10 +4,12 @@
 
 mod answers;
 mod arrays;
+mod drawing;
 mod errors;
 mod file;
 mod frame;
 mod interrupt;
+mod natural;
 mod path;
 mod picture;
 mod planning;
@@ -45,6 +47,8 @@ mod _core {
     use crate::world::{PyObstacle, PyResident, PyWorld};
 
     // plans and runs
+    #[pymodule_export]
+    use crate::drawing::_drawing;
     #[pymodule_export]
     use crate::frame::PyFrame;
     #[pymodule_export]

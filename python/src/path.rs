@@ -42,13 +42,7 @@ pub struct PyPath {
 
 impl PyPath {
     /// The path that an attempt has found.
-    pub fn new(
-        robot: LabRobot,
-        task: Task,
-        planner: PlannerName,
-        seed: u64,
-        attempt: Box<dyn PlanAttempt>,
-    ) -> Self {
+    pub fn new(robot: LabRobot, task: Task, planner: PlannerName, seed: u64, attempt: Box<dyn PlanAttempt>) -> Self {
         let (legs, lengths, effort) = (attempt.legs(), attempt.lengths(), attempt.effort());
         PyPath { robot, task, planner, seed, legs, lengths, effort, attempt: Mutex::new(attempt) }
     }
@@ -188,11 +182,11 @@ impl PyPath {
     /// Raises FileExistsError for a file that is no path, OSError where the file cannot be written.
     #[pyo3(signature = (path, *, growth = false, overwrite = false))]
     fn write(&self, py: Python<'_>, path: PathBuf, growth: bool, overwrite: bool) -> PyResult<()> {
-        let text = self.with(py, |attempt| {
-            PathFile::new(self.planner.id(), self.seed, &self.task, attempt, growth).to_json()
-        });
+        let text =
+            self.with(py, |attempt| PathFile::new(self.planner.id(), self.seed, &self.task, attempt, growth).to_json());
         let text = text.map_err(|error| Error::new_err(error.to_string()))?;
-        let is_other = || path.is_file() && !std::fs::read_to_string(&path).is_ok_and(|old| PathFile::read(&old).is_ok());
+        let is_other =
+            || path.is_file() && !std::fs::read_to_string(&path).is_ok_and(|old| PathFile::read(&old).is_ok());
         if !overwrite && py.detach(is_other) {
             let words = format!("{}: this file is no path; overwrite=True replaces it", path.display());
             return Err(PyFileExistsError::new_err(words));

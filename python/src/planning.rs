@@ -14,9 +14,11 @@ use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, RUSTY, Robot, Rusty};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::plans::{MAX_CLEARANCE, PlanAttempt, PlannerName, Task};
+use motion_lab_sim::tour::BOOK_SEED;
 
 use crate::arrays::Given;
 use crate::errors::{NoPath, configuration_error};
+use crate::natural::natural_or_none;
 use crate::path::PyPath;
 use crate::robot::{LabRobot, PyRobot};
 use crate::world::PyWorld;
@@ -34,8 +36,8 @@ pub fn planner_names() -> Vec<&'static str> {
 /// leg of the path is proven free, touching nothing, and its proof was checked by code that did not make it. Instead of
 /// a `Checker` it takes a `World` or the name of one, and a `robot`.
 ///
-/// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. `seed` is what its
-/// samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its path
+/// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. `seed`, 2005, is what
+/// its samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its path
 /// is that of a disc, all headings 0.
 ///
 /// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
@@ -46,7 +48,7 @@ pub fn planner_names() -> Vec<&'static str> {
 /// Raises NoPath, which says why there is none; ConfigurationError for ends that are none of the robot's
 /// configurations. Ctrl+C stops it within 0.1 s.
 #[pyfunction]
-#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = 2005, clearance = None, budget = None, tube = 0.0))]
+#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None, budget = None, tube = 0.0))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub fn plan(
     py: Python<'_>,
@@ -55,11 +57,13 @@ pub fn plan(
     goal: &Bound<'_, PyAny>,
     robot: Option<&Bound<'_, PyRobot>>,
     planner: Option<&str>,
-    seed: u64,
+    seed: Option<&Bound<'_, PyAny>>,
     clearance: Option<f64>,
-    budget: Option<u64>,
+    budget: Option<&Bound<'_, PyAny>>,
     tube: f64,
 ) -> PyResult<PyPath> {
+    let seed = natural_or_none("seed", seed)?.map_or(BOOK_SEED, Seed);
+    let budget = natural_or_none("budget", budget)?;
     let (world, robot) = place(checker, robot)?;
     let ends = [end(&robot, "start", start)?, end(&robot, "goal", goal)?];
     let lab = any_robot(&robot);
@@ -72,10 +76,10 @@ pub fn plan(
     }
     let task = Task { tube, clearance, ..Task::new(lab.title(), lab, (*world).clone(), ends) };
     let no_path = |reason: LabNoPath| NoPath::new_err(reason.to_string());
-    let mut attempt = py.detach(|| task.attempt(name, Seed(seed))).map_err(no_path)?;
+    let mut attempt = py.detach(|| task.attempt(name, seed)).map_err(no_path)?;
     let solved = solve(py, attempt.as_mut(), name, budget)?;
     solved.map_err(no_path)?;
-    Ok(PyPath::new(robot, task, name, seed, attempt))
+    Ok(PyPath::new(robot, task, name, seed.0, attempt))
 }
 
 /// The world and the robot that a path is planned for.
