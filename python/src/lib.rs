@@ -4,10 +4,14 @@
 
 mod answers;
 mod arrays;
+mod certificate;
+mod checker;
 mod errors;
 mod pool;
 mod robot;
+mod scan;
 mod shapes;
+mod verdicts;
 mod world;
 
 use pyo3::prelude::*;
@@ -25,11 +29,17 @@ mod _core {
 
     // questions
     #[pymodule_export]
+    use crate::certificate::PyCertificate;
+    #[pymodule_export]
+    use crate::checker::PyChecker;
+    #[pymodule_export]
     use crate::errors::{ConfigurationError, Error, LogError, NoPath, RunError, WorldError};
     #[pymodule_export]
     use crate::pool::{set_threads, threads};
     #[pymodule_export]
     use crate::robot::{PyDisc, PyHitch, PyReach, PyRobot, PyRusty};
+    #[pymodule_export]
+    use crate::scan::scan;
     #[pymodule_export]
     use crate::world::{PyObstacle, PyResident, PyWorld};
 }

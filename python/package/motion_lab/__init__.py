@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 # questions
 from ._core import (
+    Certificate,
+    Checker,
     ConfigurationError,
     Disc,
     Error,
@@ -21,6 +23,7 @@ from ._core import (
     Rusty,
     World,
     WorldError,
+    scan,
     set_threads,
     threads,
     world_names,
@@ -33,6 +36,8 @@ __all__ = [
     "FREE",
     "HIT",
     "UNRESOLVED",
+    "Certificate",
+    "Checker",
     "ConfigurationError",
     "Disc",
     "Edge",
@@ -51,6 +56,7 @@ __all__ = [
     "Witness",
     "World",
     "WorldError",
+    "scan",
     "set_threads",
     "threads",
     "world_names",
