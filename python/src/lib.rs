@@ -4,6 +4,8 @@
 
 mod answers;
 mod arrays;
+mod certificate;
+mod checker;
 mod drawing;
 mod errors;
 mod file;
@@ -17,9 +19,11 @@ mod pool;
 mod recorder;
 mod robot;
 mod run;
+mod scan;
 mod script;
 mod shapes;
 mod table;
+mod verdicts;
 mod verification;
 mod world;
 
@@ -38,11 +42,17 @@ mod _core {
 
     // questions
     #[pymodule_export]
+    use crate::certificate::PyCertificate;
+    #[pymodule_export]
+    use crate::checker::PyChecker;
+    #[pymodule_export]
     use crate::errors::{ConfigurationError, Error, LogError, NoPath, RunError, WorldError};
     #[pymodule_export]
     use crate::pool::{set_threads, threads};
     #[pymodule_export]
     use crate::robot::{PyDisc, PyHitch, PyReach, PyRobot, PyRusty};
+    #[pymodule_export]
+    use crate::scan::scan;
     #[pymodule_export]
     use crate::world::{PyObstacle, PyResident, PyWorld};
 

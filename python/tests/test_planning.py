@@ -40,6 +40,21 @@ def test_a_path_s_clearance_is_proven_step_by_step():
     assert path.clearance == min(step[:, 2].min() for step in steps) == path.verify() > 0.001
 
 
+def test_a_checker_proves_every_leg_that_was_planned_for_it():
+    checker = ml.Checker("apartment", ml.Disc())
+    path = ml.plan(checker, start=(1.5, 5.75), goal=(9.75, 6.25), planner="rrt-connect", seed=7)
+    assert len(path) > 1 and checker.edge_free(path.corners[:-1], path.corners[1:]).all()
+    assert checker.distance(path.corners).min() >= path.clearance
+    by_world = ml.plan(ml.World("apartment"), (1.5, 5.75), (9.75, 6.25), robot=ml.Disc(), seed=7)
+    assert by_world.corners.tobytes() == path.corners.tobytes()
+    for robot, start, goal in [(ml.Reach(), *POST), (ml.Rusty(), (1.5, 5.75, 1.0), (9.75, 6.25, 0.0))]:
+        checker = ml.Checker("workbench" if isinstance(robot, ml.Reach) else "apartment", robot)
+        corners = ml.plan(checker, start, goal).corners
+        assert checker.edge_free(corners[:-1], corners[1:]).all()
+    with pytest.raises(TypeError, match="a Checker has its robot: leave out robot="):
+        ml.plan(checker, (1.5, 5.75, 0), (9.75, 6.25, 0), robot=ml.Rusty())
+
+
 def test_the_same_seed_gives_the_same_path_and_another_another():
     assert round_the_post().corners.tobytes() == round_the_post(seed=2005).corners.tobytes()
     assert round_the_post(seed=7).corners.tobytes() != round_the_post().corners.tobytes()
