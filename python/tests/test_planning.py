@@ -187,16 +187,33 @@ def test_a_path_file_holds_the_legs_with_every_bit(tmp_path):
 
 
 def test_an_arm_plays_its_path_to_the_goal_without_a_contact():
-    path = round_the_post()
-    run = path.play()
+    run = round_the_post().play()
     states = run.states("Reach")
-    assert (states["theta1"][0], states["theta2"][0]) == pytest.approx(ml.World("workbench").robots[0].start, abs=1e-6)
+    assert (states["theta1"][0], states["theta2"][0]) == POST[0]
     # a script holds 2^-20 rad
     assert (states["theta1"][-1], states["theta2"][-1]) == pytest.approx(POST[1], abs=1e-6)
     assert states["contacts"][-1] == 0 and states["refusals"][-1] == 0 and run.verify()
-    with pytest.raises(ml.RunError):
-        # a rover follows no line without any width
-        ml.plan("apartment", (1.5, 5.75), (9.75, 6.25), robot=ml.Disc(), clearance=0.0).play()
+
+
+def test_a_path_is_played_by_the_robot_that_it_was_planned_for():
+    short = ml.Reach(lengths=(0.5, 0.4))
+    run = ml.plan("workbench", (2.0, 0.0), (3.1, 0.0), robot=short).play()
+    assert [resident.robot for resident in run.worlds[0].robots] == [short] and run.states("Reach")["contacts"][-1] == 0
+    rover = ml.plan("apartment", (1.5, 5.75), (4.5, 2.0), robot=ml.Disc(0.2), tube=0.02).play()
+    assert rover.worlds[0].robots[0].robot == ml.Rusty(0.2) and rover.verify()
+    states = rover.states("Rusty")
+    assert math.hypot(states["x"][-1] - 4.5, states["y"][-1] - 2.0) < 0.05 and states["contacts"][-1] == 0
+    # within the tube no wall is touched: the nearest is as far as the path's clearance, or further
+    poses = np.column_stack([states["x"], states["y"]])
+    assert ml.Checker("apartment", ml.Disc(0.2)).distance(poses).min() > 0.0
+    car = ml.plan("lot", (6.5, 2.5, 0.0, 0.0), (6.75, 7.0, -math.pi / 2, -math.pi / 2), robot=ml.Hitch(trailer=True))
+    assert car.corners.shape[1] == 4 and car.play().states("Hitch")["contacts"][-1] == 0
+
+
+def test_a_path_that_nobody_can_follow_is_not_played():
+    thin = ml.plan("apartment", (1.5, 5.75), (9.75, 6.25), robot=ml.Disc(), planner="visibility-graph")
+    with pytest.raises(ml.RunError, match="."):
+        thin.play()
 
 
 def test_a_path_shows_itself_in_a_notebook():
