@@ -12,13 +12,13 @@ use pyo3::types::PyTuple;
 
 use motion_lab_core::collision::RowsError;
 
-use crate::arrays::{numpy_function, shape_text};
+use crate::arrays::{ManyRows, numpy_function, shape_text};
 use crate::pool;
 
 /// How many rows a call begins with: few enough that Ctrl+C does not wait for hard ones.
 const FIRST: usize = 16;
 /// The library answers no more questions than these in the caller's own thread.
-const ALONE: usize = 64;
+pub const ALONE: usize = 64;
 /// A part of a call that took less than this is followed by a larger one, and by a smaller one if it took more.
 const SHORT: Duration = Duration::from_millis(8);
 const LONG: Duration = Duration::from_millis(40);
@@ -38,7 +38,7 @@ impl<'py, T: Element> Answers<'py, T> {
         py: Python<'py>,
         out: Option<&Bound<'py, PyAny>>,
         shape: &[usize],
-        inputs: &[(&str, &Bound<'py, PyAny>)],
+        inputs: &[&ManyRows<'py>],
     ) -> PyResult<Self> {
         let Some(out) = out else {
             static ZEROS: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
@@ -64,7 +64,7 @@ impl<'py, T: Element> Answers<'py, T> {
         if !out.getattr("flags")?.getattr("writeable")?.extract::<bool>()? {
             return wrong("is not writeable".to_owned());
         }
-        for (name, input) in inputs {
+        for (name, input) in inputs.iter().flat_map(|input| input.memory()) {
             if shares_memory(py, out, input)? {
                 return wrong(format!("shares memory with {name}"));
             }

@@ -205,9 +205,9 @@ impl<'py> ManyRows<'py> {
         self.array.shape().last().copied().unwrap_or(0)
     }
 
-    /// What the caller gave, and its name.
-    pub fn given(&self) -> (&'static str, &Bound<'py, PyAny>) {
-        (self.name, &self.given)
+    /// What an answer may not share memory with, and its name: what the caller gave, and what is read of it.
+    pub fn memory(&self) -> [(&'static str, &Bound<'py, PyAny>); 2] {
+        [(self.name, &self.given), (self.name, self.array.as_any())]
     }
 
     /// Checks that every row is a configuration of this robot.

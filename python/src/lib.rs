@@ -5,12 +5,16 @@
 mod answers;
 mod arrays;
 mod buffers;
+mod certificate;
+mod checker;
+mod drawing;
 mod episodes;
 mod errors;
 mod file;
 mod fleet;
 mod frame;
 mod interrupt;
+mod natural;
 mod path;
 mod picture;
 mod planning;
@@ -18,9 +22,11 @@ mod pool;
 mod recorder;
 mod robot;
 mod run;
+mod scan;
 mod script;
 mod shapes;
 mod table;
+mod verdicts;
 mod verification;
 mod world;
 
@@ -39,15 +45,23 @@ mod _core {
 
     // questions
     #[pymodule_export]
+    use crate::certificate::PyCertificate;
+    #[pymodule_export]
+    use crate::checker::PyChecker;
+    #[pymodule_export]
     use crate::errors::{ConfigurationError, Error, LogError, NoPath, RunError, WorldError};
     #[pymodule_export]
     use crate::pool::{set_threads, threads};
     #[pymodule_export]
     use crate::robot::{PyDisc, PyHitch, PyReach, PyRobot, PyRusty};
     #[pymodule_export]
+    use crate::scan::scan;
+    #[pymodule_export]
     use crate::world::{PyObstacle, PyResident, PyWorld};
 
     // plans and runs
+    #[pymodule_export]
+    use crate::drawing::_drawing;
     #[pymodule_export]
     use crate::frame::PyFrame;
     #[pymodule_export]

@@ -8,8 +8,11 @@ use pyo3::exceptions::{PyFileExistsError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use motion_lab_core::configuration::Configuration;
 use motion_lab_core::planning::Effort;
 use motion_lab_core::random::Seed;
+use motion_lab_core::robots::AnyRobot;
+use motion_lab_core::worlds::{Resident, World};
 use motion_lab_sim::capture::{Paper, PlanOutcome, PlanSheet, plan, proven, unit};
 use motion_lab_sim::plans::{FileLeg, PathFile, PathLengths, PlanAttempt, PlannerName, Task};
 use motion_lab_sim::run::{LogKind, Recipe};
@@ -19,7 +22,7 @@ use crate::errors::{Error, RunError};
 use crate::file::replace;
 use crate::picture::{PyPicture, theme};
 use crate::robot::LabRobot;
-use crate::run::PyRun;
+use crate::run::{PyRun, recorded};
 
 /// The width of a picture, pixels.
 const WIDTH: u32 = 640;
@@ -42,13 +45,7 @@ pub struct PyPath {
 
 impl PyPath {
     /// The path that an attempt has found.
-    pub fn new(
-        robot: LabRobot,
-        task: Task,
-        planner: PlannerName,
-        seed: u64,
-        attempt: Box<dyn PlanAttempt>,
-    ) -> Self {
+    pub fn new(robot: LabRobot, task: Task, planner: PlannerName, seed: u64, attempt: Box<dyn PlanAttempt>) -> Self {
         let (legs, lengths, effort) = (attempt.legs(), attempt.lengths(), attempt.effort());
         PyPath { robot, task, planner, seed, legs, lengths, effort, attempt: Mutex::new(attempt) }
     }
@@ -62,6 +59,15 @@ impl PyPath {
     fn own(&self, q: &[f64]) -> Vec<f64> {
         let width = self.robot.coordinates().len();
         q.iter().copied().chain(std::iter::repeat(0.0)).take(width).collect()
+    }
+
+    /// The same task in the world with the robot alone, at the path's start.
+    fn alone(&self) -> Task {
+        let Task { robot, start, world, .. } = &self.task;
+        let usual = AnyRobot::model(robot.kind(), None).map(|model| model.fitted(start));
+        let sizes = (usual != Some(*robot)).then(|| robot.sizes());
+        let resident = Resident { sizes, ..Resident::new(robot.title(), robot.kind(), start.coordinates().to_vec()) };
+        Task { world: World { robots: vec![resident], ..world.clone() }, ..self.task.clone() }
     }
 
     fn picture(&self, py: Python<'_>, theme_name: &str) -> PyResult<PyPicture> {
@@ -168,18 +174,19 @@ impl PyPath {
         }
     }
 
-    /// Play the path: the run in which the robot follows it, alone in the world, by inputs alone. A rover needs a
-    /// `tube` to stay in; a robot that the world has not lives there for this.
+    /// Play the path: the run in which the robot, of its own sizes and alone in the world, follows it from its start, by
+    /// inputs alone. A disc is played by a rover, which needs a `tube` to stay in.
     ///
     /// Raises RunError for a path that cannot be played.
     fn play(&self, py: Python<'_>) -> PyResult<PyRun> {
-        let (world, played) = self.with(py, |attempt| self.task.played(attempt, Seed(self.seed)));
+        let task = self.alone();
+        let (world, played) = self.with(py, |attempt| task.played(attempt, Seed(self.seed)));
         let played = match played {
             Some(played) => played.map_err(|error| RunError::new_err(error.to_string()))?,
             None => return Err(RunError::new_err("there is no path")),
         };
         let config = TourConfig { worlds: vec![world], ticks: played.ticks, sensor: None };
-        crate::run::recorded(py, Recipe::new(config, (Seed(self.seed), played.script)), LogKind::Frames)
+        recorded(py, Recipe::new(config, (Seed(self.seed), played.script)), LogKind::Frames)
     }
 
     /// Write it as a path file, the JSON of `motion-lab plan -o`, which the lab's window shows. With `growth` it holds
@@ -188,11 +195,11 @@ impl PyPath {
     /// Raises FileExistsError for a file that is no path, OSError where the file cannot be written.
     #[pyo3(signature = (path, *, growth = false, overwrite = false))]
     fn write(&self, py: Python<'_>, path: PathBuf, growth: bool, overwrite: bool) -> PyResult<()> {
-        let text = self.with(py, |attempt| {
-            PathFile::new(self.planner.id(), self.seed, &self.task, attempt, growth).to_json()
-        });
+        let text =
+            self.with(py, |attempt| PathFile::new(self.planner.id(), self.seed, &self.task, attempt, growth).to_json());
         let text = text.map_err(|error| Error::new_err(error.to_string()))?;
-        let is_other = || path.is_file() && !std::fs::read_to_string(&path).is_ok_and(|old| PathFile::read(&old).is_ok());
+        let is_other =
+            || path.is_file() && !std::fs::read_to_string(&path).is_ok_and(|old| PathFile::read(&old).is_ok());
         if !overwrite && py.detach(is_other) {
             let words = format!("{}: this file is no path; overwrite=True replaces it", path.display());
             return Err(PyFileExistsError::new_err(words));

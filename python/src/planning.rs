@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
+use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::names::{hint, nearest};
@@ -13,10 +14,13 @@ use motion_lab_core::planning::{Bounds, NoPath as LabNoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, RUSTY, Robot, Rusty};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::plans::{MAX_CLEARANCE, PlanAttempt, PlannerName, Task};
+use motion_lab_sim::plans::{CheckerName, MAX_CLEARANCE, PlanAttempt, PlannerName, Task};
+use motion_lab_sim::tour::BOOK_SEED;
 
 use crate::arrays::Given;
+use crate::checker::PyChecker;
 use crate::errors::{NoPath, configuration_error};
+use crate::natural::natural_or_none;
 use crate::path::PyPath;
 use crate::robot::{LabRobot, PyRobot};
 use crate::world::PyWorld;
@@ -34,9 +38,9 @@ pub fn planner_names() -> Vec<&'static str> {
 /// leg of the path is proven free, touching nothing, and its proof was checked by code that did not make it. Instead of
 /// a `Checker` it takes a `World` or the name of one, and a `robot`.
 ///
-/// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. `seed` is what its
-/// samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its path
-/// is that of a disc, all headings 0.
+/// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. `seed`, 2005, is what
+/// its samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its path
+/// is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its goal.
 ///
 /// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
 /// samples, if start and goal have it, else 0. `budget` is the greatest number of iterations, 100,000 if left out
@@ -46,7 +50,7 @@ pub fn planner_names() -> Vec<&'static str> {
 /// Raises NoPath, which says why there is none; ConfigurationError for ends that are none of the robot's
 /// configurations. Ctrl+C stops it within 0.1 s.
 #[pyfunction]
-#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = 2005, clearance = None, budget = None, tube = 0.0))]
+#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None, budget = None, tube = 0.0))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub fn plan(
     py: Python<'_>,
@@ -55,12 +59,14 @@ pub fn plan(
     goal: &Bound<'_, PyAny>,
     robot: Option<&Bound<'_, PyRobot>>,
     planner: Option<&str>,
-    seed: u64,
+    seed: Option<&Bound<'_, PyAny>>,
     clearance: Option<f64>,
-    budget: Option<u64>,
+    budget: Option<&Bound<'_, PyAny>>,
     tube: f64,
 ) -> PyResult<PyPath> {
-    let (world, robot) = place(checker, robot)?;
+    let seed = natural_or_none("seed", seed)?.map_or(BOOK_SEED, Seed);
+    let budget = natural_or_none("budget", budget)?;
+    let (world, scene, robot) = place(checker, robot)?;
     let ends = [end(&robot, "start", start)?, end(&robot, "goal", goal)?];
     let lab = any_robot(&robot);
     let name = planner.map_or(Ok(PlannerName::default_for(&lab)), named)?;
@@ -70,20 +76,30 @@ pub fn plan(
     if !(0.0..=1.0).contains(&tube) {
         return Err(PyValueError::new_err(format!("tube {tube}: it must be from 0 to 1 m")));
     }
-    let task = Task { tube, clearance, ..Task::new(lab.title(), lab, (*world).clone(), ends) };
+    let task = task(lab, (*world).clone(), scene, ends);
+    let task = Task { tube, clearance, ..task };
     let no_path = |reason: LabNoPath| NoPath::new_err(reason.to_string());
-    let mut attempt = py.detach(|| task.attempt(name, Seed(seed))).map_err(no_path)?;
+    let mut attempt = py.detach(|| task.attempt(name, seed)).map_err(no_path)?;
     let solved = solve(py, attempt.as_mut(), name, budget)?;
     solved.map_err(no_path)?;
-    Ok(PyPath::new(robot, task, name, seed, attempt))
+    Ok(PyPath::new(robot, task, name, seed.0, attempt))
 }
 
-/// The world and the robot that a path is planned for.
-fn place(checker: &Bound<'_, PyAny>, robot: Option<&Bound<'_, PyRobot>>) -> PyResult<(Arc<World>, LabRobot)> {
-    match robot {
-        Some(robot) => Ok((Arc::clone(&PyWorld::of(checker)?.get().world), robot.get().robot)),
-        None => Err(PyTypeError::new_err("a path is planned for a Checker, or for a World and robot=")),
-    }
+/// The world, its obstacles under an index, and the robot that a path is planned for.
+fn place(given: &Bound<'_, PyAny>, robot: Option<&Bound<'_, PyRobot>>) -> PyResult<(Arc<World>, Arc<Scene>, LabRobot)> {
+    let (world, robot) = match (given.cast::<PyChecker>(), robot) {
+        (Ok(checker), None) => {
+            let checker = checker.get();
+            (checker.world.bind(given.py()).clone(), checker.robot.bind(given.py()).clone())
+        }
+        (Ok(_), Some(_)) => return Err(PyTypeError::new_err("a Checker has its robot: leave out robot=")),
+        (Err(_), Some(robot)) => (PyWorld::of(given)?, robot.clone()),
+        (Err(_), None) => {
+            return Err(PyTypeError::new_err("a path is planned for a Checker, or for a World and robot="));
+        }
+    };
+    let world = world.get();
+    Ok((Arc::clone(&world.world), world.scene(), robot.get().robot))
 }
 
 /// The planner of this name.
@@ -92,6 +108,22 @@ fn named(name: &str) -> PyResult<PlannerName> {
         let near = hint(nearest(name, PlannerName::ALL.map(PlannerName::id)));
         PyValueError::new_err(format!("no planner is called {name:?}{near}"))
     })
+}
+
+/// The task of a robot in a world of which the scene is there already.
+fn task(robot: AnyRobot, world: World, scene: Arc<Scene>, [start, goal]: [AnyConfiguration; 2]) -> Task {
+    Task {
+        name: robot.title().to_owned(),
+        robot,
+        world,
+        scene,
+        start,
+        goal,
+        tube: 0.0,
+        clearance: None,
+        noise: None,
+        checker: CheckerName::EXACT,
+    }
 }
 
 /// The lab's robot for planners: a disc is the rover's body.

@@ -7,14 +7,14 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use motion_lab_core::random::Seed;
 use motion_lab_sim::recording::Recorder;
 use motion_lab_sim::run::{Recipe, RobotState};
 
 use crate::errors::RunError;
 use crate::frame::PyFrame;
 use crate::interrupt;
-use crate::run::{PyRun, begin, config, ranges_of, robot_of};
+use crate::natural::{natural, natural_or_none};
+use crate::run::{PyRun, Settings, begin, ranges_of, robot_of};
 use crate::script::{change_of, input_of};
 use crate::world::PyWorld;
 
@@ -46,16 +46,17 @@ impl PyRecorder {
 #[pymethods]
 impl PyRecorder {
     #[new]
-    #[pyo3(signature = (worlds = None, *, seed = 2005, script = None, rays = 360, range = 4.0))]
+    #[pyo3(signature = (worlds = None, *, seed = None, script = None, rays = None, range = None))]
     fn new(
         py: Python<'_>,
         worlds: Option<&Bound<'_, PyAny>>,
-        seed: u64,
+        seed: Option<&Bound<'_, PyAny>>,
         script: Option<&Bound<'_, PyAny>>,
-        rays: u32,
-        range: f64,
+        rays: Option<&Bound<'_, PyAny>>,
+        range: Option<f64>,
     ) -> PyResult<Self> {
-        let recipe = Recipe::new(config(worlds, None, rays, range)?, (Seed(seed), crate::script::script(script)?));
+        let (config, input) = Settings { worlds, ticks: None, seed, script, rays, range }.read()?;
+        let recipe = Recipe::new(config, input);
         Ok(PyRecorder { run: Mutex::new(begin(py, &recipe)?) })
     }
 
@@ -107,11 +108,12 @@ impl PyRecorder {
         Ok((refusals.count(), refusals.first().map(ToString::to_string)))
     }
 
-    /// Go on by `n` ticks; returns the tick then.
+    /// Go on by a tick, or by `n`; returns the tick then.
     ///
     /// Ctrl+C stops it within 0.1 s; the run then stands at the last tick that was finished.
-    #[pyo3(signature = (n = 1))]
-    fn step(&self, py: Python<'_>, n: u64) -> PyResult<u64> {
+    #[pyo3(signature = (n = None))]
+    fn step(&self, py: Python<'_>, n: Option<&Bound<'_, PyAny>>) -> PyResult<u64> {
+        let n = natural_or_none("n", n)?.unwrap_or(1);
         let mut run = self.now()?;
         let run = &mut *run;
         let until = run.frame().tick.saturating_add(n);
@@ -128,7 +130,8 @@ impl PyRecorder {
     /// Go to a tick, back or ahead. Going back is quick, for the run keeps frames on its way; inputs stay as they were.
     ///
     /// Ctrl+C stops the way ahead within 0.1 s.
-    fn seek(&self, py: Python<'_>, tick: u64) -> PyResult<()> {
+    fn seek(&self, py: Python<'_>, tick: &Bound<'_, PyAny>) -> PyResult<()> {
+        let tick = natural("tick", tick)?;
         let mut run = self.now()?;
         let run = &mut *run;
         let robots = run.frame().robots.len();
@@ -205,9 +208,15 @@ impl PyRecorder {
     }
 
     /// What a robot's range sensor reads here, metres, shape `(rays,)`; inf where nothing is within reach. `sensor` is
-    /// its number, of a robot with several.
-    #[pyo3(signature = (robot, sensor = 0))]
-    fn scan<'py>(&self, py: Python<'py>, robot: &str, sensor: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    /// its number, from 0, of a robot with several.
+    #[pyo3(signature = (robot, sensor = None))]
+    fn scan<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &str,
+        sensor: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let sensor = natural_or_none("sensor", sensor)?.unwrap_or(0);
         let run = self.now()?;
         let id = robot_of(run.config(), robot)?;
         Ok(PyArray1::from_slice(py, ranges_of(run.frame(), id, robot, sensor)?))

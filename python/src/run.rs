@@ -8,23 +8,26 @@ use std::sync::{Arc, OnceLock};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::{PyFileExistsError, PyIndexError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyTuple, PyType};
+use pyo3::types::{PyBytes, PyString, PyTuple, PyType};
 
 use motion_lab_core::names::{hint, nearest};
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
+use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::run_svg;
 use motion_lab_sim::export::{table, table_of_robot, write_csv};
 use motion_lab_sim::recording::Recorder;
+use motion_lab_sim::run::{DIGEST_TICKS, RunInput, SecondDigests};
 use motion_lab_sim::run::{Digest, Frame, Log, LogError as LabLogError, LogKind, Recipe, Recorded, RunDigest};
-use motion_lab_sim::run::{DIGEST_TICKS, SecondDigests};
-use motion_lab_sim::tour::TourConfig;
+use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 use crate::errors::{LogError, RunError};
 use crate::file::replace;
 use crate::frame::PyFrame;
 use crate::interrupt;
+use crate::natural::{natural, natural_or_none};
 use crate::picture::{PyPicture, theme};
+use crate::script::script;
 use crate::table::{by_name, structured};
 use crate::verification::{PyDifference, PyVerification, verify};
 use crate::world::{PyWorld, os_error};
@@ -47,66 +50,89 @@ impl From<Log> for PyRun {
     }
 }
 
-/// The settings of a run as Python gives them.
-///
-/// # Errors
-/// `WorldError` for a world that there is not; the run itself checks all else.
-pub fn config(
-    worlds: Option<&Bound<'_, PyAny>>,
-    ticks: Option<u64>,
-    rays: u32,
-    range: f64,
-) -> PyResult<TourConfig> {
-    let usual = TourConfig::default();
-    let worlds = match worlds.filter(|worlds| !worlds.is_none()) {
-        None => usual.worlds,
-        // one world, or the name of one
-        Some(one) if one.is_instance_of::<PyWorld>() || one.is_instance_of::<pyo3::types::PyString>() => {
-            vec![(*PyWorld::of(one)?.get().world).clone()]
-        }
-        Some(several) => {
-            let worlds = several.try_iter()?.map(|world| Ok((*PyWorld::of(&world?)?.get().world).clone()));
-            worlds.collect::<PyResult<_>>()?
-        }
-    };
-    let sensor = (rays > 0).then_some(RangeSensor { n_rays: rays, max_range: range });
-    Ok(TourConfig { worlds, ticks: ticks.unwrap_or(usual.ticks), sensor })
+/// The settings of a run as Python gives them, None for what is left out.
+pub struct Settings<'a, 'py> {
+    /// A world, a name or several of them.
+    pub worlds: Option<&'a Bound<'py, PyAny>>,
+    /// The number of ticks.
+    pub ticks: Option<&'a Bound<'py, PyAny>>,
+    /// The seed.
+    pub seed: Option<&'a Bound<'py, PyAny>>,
+    /// The inputs, as [`script`] reads them.
+    pub script: Option<&'a Bound<'py, PyAny>>,
+    /// The number of rays of a rover's sensor; 0 for none.
+    pub rays: Option<&'a Bound<'py, PyAny>>,
+    /// The sensor's reach, metres.
+    pub range: Option<f64>,
+}
+
+impl Settings<'_, '_> {
+    /// The configuration and the input of the run: the tour with what is given.
+    ///
+    /// # Errors
+    /// `WorldError` for a world that there is not, `RunError` for a script that is refused, `ValueError` for a number
+    /// that cannot be; the run itself checks all else.
+    pub fn read(self) -> PyResult<(TourConfig, RunInput)> {
+        let usual = TourConfig::default();
+        let worlds = match self.worlds.filter(|worlds| !worlds.is_none()) {
+            None => usual.worlds,
+            Some(one) if one.is_instance_of::<PyWorld>() || one.is_instance_of::<PyString>() => vec![world_of(one)?],
+            Some(several) => several.try_iter()?.map(|world| world_of(&world?)).collect::<PyResult<_>>()?,
+        };
+        let ticks = natural_or_none("ticks", self.ticks)?.unwrap_or(usual.ticks);
+        let rays = natural_or_none("rays", self.rays)?;
+        let sensor = match (rays, usual.sensor) {
+            (Some(0), _) | (None, None) => None,
+            (rays, usual) => {
+                let RangeSensor { n_rays, max_range } = usual.unwrap_or(RangeSensor { n_rays: 1, max_range: 1.0 });
+                // so many that the library refuses them
+                let n_rays = rays.map_or(n_rays, |rays| u32::try_from(rays).unwrap_or(u32::MAX));
+                Some(RangeSensor { n_rays, max_range: self.range.unwrap_or(max_range) })
+            }
+        };
+        let seed = natural_or_none("seed", self.seed)?.map_or(BOOK_SEED, Seed);
+        Ok((TourConfig { worlds, ticks, sensor }, (seed, script(self.script)?).into()))
+    }
+}
+
+fn world_of(given: &Bound<'_, PyAny>) -> PyResult<World> {
+    Ok((*PyWorld::of(given)?.get().world).clone())
 }
 
 /// Record a run: the 60 s tour of the three built-in worlds, or `worlds`, a `World`, the name of one or several of
-/// them, for `ticks` of 0.05 s (1200). `seed` is what its noise and its tours follow from.
+/// them, for `ticks` of 0.05 s, 1200. `seed`, 2005, is what its noise and its tours follow from.
 ///
 /// `script` has the inputs: the text of a script, the path of its file, or a list of `(tick, name, input)`, as
 /// `(1, "Rusty", {"drive": (128, 0)})` or `(20, "Apartment", {"close": "the bath door"})`, with the inputs of
 /// `Recorder.input` and the changes of `Recorder.change`. What a robot or a world refuses at its tick is counted there
 /// and changes nothing.
 ///
-/// Every rover has a range sensor of `rays` rays, at most `range` metres; with 0 rays none. `frames` says whether every
+/// Every rover has a range sensor of `rays` rays, 360, that reach `range` metres, 4; with 0 rays none. `frames` says whether every
 /// frame is kept, or a digest of each second; if left out, frames for at most 100 robots.
 ///
 /// The digest is that of `motion-lab record` with the same settings. Raises RunError for a run that cannot start;
 /// Ctrl+C stops it within 0.1 s.
 #[pyfunction]
-#[pyo3(signature = (worlds = None, ticks = None, *, seed = 2005, script = None, rays = 360, range = 4.0, frames = None))]
+#[pyo3(signature = (worlds = None, ticks = None, *, seed = None, script = None, rays = None, range = None, frames = None))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub fn record(
     py: Python<'_>,
     worlds: Option<&Bound<'_, PyAny>>,
-    ticks: Option<u64>,
-    seed: u64,
+    ticks: Option<&Bound<'_, PyAny>>,
+    seed: Option<&Bound<'_, PyAny>>,
     script: Option<&Bound<'_, PyAny>>,
-    rays: u32,
-    range: f64,
+    rays: Option<&Bound<'_, PyAny>>,
+    range: Option<f64>,
     frames: Option<bool>,
 ) -> PyResult<PyRun> {
-    let config = config(worlds, ticks, rays, range)?;
-    let script = crate::script::script(script)?;
+    let settings = Settings { worlds, ticks, seed, script, rays, range };
+    let (config, input) = settings.read()?;
     let kind = match frames {
         None => LogKind::usual(&config),
         Some(true) => LogKind::Frames,
         Some(false) => LogKind::Digests,
     };
-    recorded(py, Recipe::new(config, (Seed(seed), script)), kind)
+    recorded(py, Recipe::new(config, input), kind)
 }
 
 /// The run of a recipe, tick by tick, until Ctrl+C.
@@ -138,9 +164,7 @@ pub fn recorded(py: Python<'_>, recipe: Recipe, kind: LogKind) -> PyResult<PyRun
     })?;
     let recorded = match kind {
         LogKind::Frames => Recorded::Frames { initial, frames },
-        LogKind::Digests => {
-            Recorded::Digests(SecondDigests { start, digests, ticks, whole: Some(run.digest()) })
-        }
+        LogKind::Digests => Recorded::Digests(SecondDigests { start, digests, ticks, whole: Some(run.digest()) }),
     };
     Ok(Log { recipe, recorded }.into())
 }
@@ -188,11 +212,12 @@ pub fn robot_of(config: &TourConfig, name: &str) -> PyResult<usize> {
 ///
 /// # Errors
 /// `IndexError` for a sensor that it has not.
-pub fn ranges_of<'a>(frame: &'a Frame, id: usize, name: &str, sensor: usize) -> PyResult<&'a [f64]> {
+pub fn ranges_of<'a>(frame: &'a Frame, id: usize, name: &str, sensor: u64) -> PyResult<&'a [f64]> {
     let mut own = frame.scans.iter().filter(|scan| scan.robot as usize == id);
     let count = own.clone().count();
     let none = || PyIndexError::new_err(format!("{name} has {count} range sensors: there is no number {sensor}"));
-    own.nth(sensor).map(|scan| &*scan.ranges).ok_or_else(none)
+    let found = usize::try_from(sensor).ok().and_then(|sensor| own.nth(sensor));
+    found.map(|scan| &*scan.ranges).ok_or_else(none)
 }
 
 impl PyRun {
@@ -288,14 +313,21 @@ impl PyRun {
     }
 
     /// The scans of a robot's range sensor, metres, shape `(ticks + 1, rays)`, from tick 0 on; inf where nothing is
-    /// within reach. `sensor` is its number, of a robot with several: the run's own sensor is the first.
+    /// within reach. `sensor` is its number, from 0, of a robot with several: the
+    /// run's own sensor is the first.
     ///
     /// Raises RunError for a robot that there is not, IndexError for a sensor that it has not, LogError for a digest
     /// log.
-    #[pyo3(signature = (robot, sensor = 0))]
-    fn scans<'py>(&self, py: Python<'py>, robot: &str, sensor: usize) -> PyResult<Bound<'py, PyAny>> {
+    #[pyo3(signature = (robot, sensor = None))]
+    fn scans<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &str,
+        sensor: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
         self.needs_frames()?;
         let id = robot_of(&self.log.recipe.config, robot)?;
+        let sensor = natural_or_none("sensor", sensor)?.unwrap_or(0);
         let frames = || self.log.initial().into_iter().chain(self.log.frames());
         let mut width = None;
         let mut all = Vec::new();
@@ -318,8 +350,9 @@ impl PyRun {
     /// The frame after a tick, 0 for the start: the state of the whole run.
     ///
     /// Raises IndexError for a tick that there is not, LogError for a digest log.
-    fn frame(&self, tick: u64) -> PyResult<PyFrame> {
+    fn frame(&self, tick: &Bound<'_, PyAny>) -> PyResult<PyFrame> {
         self.needs_frames()?;
+        let tick = natural("tick", tick)?;
         let last = self.log.ticks();
         let none = || PyIndexError::new_err(format!("there is no tick {tick}: they are 0 to {last}"));
         self.log.frame(tick).map(PyFrame::from).ok_or_else(none)
@@ -387,8 +420,8 @@ impl PyRun {
     ///
     /// Raises RunError for a tick that there is not, LogError for a digest log.
     #[pyo3(signature = (tick = None, *, theme = "light"))]
-    fn plot(&self, py: Python<'_>, tick: Option<u64>, theme: &str) -> PyResult<PyPicture> {
-        self.svg(py, tick, theme)
+    fn plot(&self, py: Python<'_>, tick: Option<&Bound<'_, PyAny>>, theme: &str) -> PyResult<PyPicture> {
+        self.svg(py, natural_or_none("tick", tick)?, theme)
     }
 
     fn _repr_svg_(&self, py: Python<'_>) -> PyResult<Option<String>> {

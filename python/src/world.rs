@@ -16,7 +16,9 @@ use motion_lab_core::names::nearest;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
 
+use crate::drawing::world_svg;
 use crate::errors::{nowhere_in_a_world, world_error};
+use crate::picture::PyPicture;
 use crate::robot::{LabRobot, PyRobot};
 use crate::shapes::{Shapes, pieces};
 
@@ -222,6 +224,26 @@ impl PyWorld {
         let mut hasher = DefaultHasher::new();
         self.world.content_hash().hash(&mut hasher);
         hasher.finish()
+    }
+
+    /// Its picture: walls, obstacles, doors, routes and marks.
+    fn plot(&self) -> PyPicture {
+        PyPicture::of(world_svg(&self.world))
+    }
+
+    /// Draw it on `ax`, axes of matplotlib, in metres, and fit them to its bounds. Returns the axes.
+    ///
+    /// Raises ImportError without matplotlib.
+    fn draw<'py>(slf: &Bound<'py, Self>, ax: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("motion_lab._draw")?.getattr("draw")?.call1((slf, ax))
+    }
+
+    fn _repr_svg_(&self) -> String {
+        world_svg(&self.world)
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<String> {
+        self.plot().html(py)
     }
 
     /// What pickles hold: the text.
