@@ -1,6 +1,6 @@
 """A rover learns to drive to goals by its lidar, with numpy alone: evolution strategies over a small network.
 
-    python learn.py [--seconds 150] [--out .]
+    python learn.py [--generations 150] [--out .]
 
 Every generation tries 512 changes of the network's weights and their opposites, each for 300 ticks in an episode of its
 own, and moves the weights toward the changes that earned more (Salimans et al., 2017, "Evolution strategies as a
@@ -15,6 +15,7 @@ import pathlib
 import time
 
 import numpy as np
+
 from motion_lab.envs import VectorEnv
 
 PAIRS, TICKS, HIDDEN, SECTORS = 512, 300, 16, 24
@@ -26,7 +27,9 @@ COUNT = sum(rows * columns for rows, columns in SIZES)
 
 def inputs(seen):
     """What the network sees: how near the nearest thing is in each of 24 sectors, and where the goal is."""
-    sectors = 1 - seen[:, :360].reshape(len(seen), SECTORS, -1).min(axis=2)
+    rays = seen[:, :360].reshape(len(seen), 3 * SECTORS, 5)
+    fifths = np.minimum.reduce([rays[:, :, k] for k in range(5)])
+    sectors = 1 - np.minimum.reduce([fifths[:, k::3] for k in range(3)])
     return np.concatenate([sectors, seen[:, 360:], np.ones((len(seen), 1), np.float32)], axis=1)
 
 
@@ -62,15 +65,15 @@ def success(weights, count=256):
     return reached
 
 
-def learn(seconds, say=print):
+def learn(generations):
     """Weights before and after."""
     draws = np.random.default_rng(1)
     weights = draws.normal(0, 0.1, COUNT).astype(np.float32)
     first = weights.copy()
     vec = VectorEnv("RustyGoal", 2 * PAIRS, copy=False)
     mean, square, sigma, rate = np.zeros(COUNT), np.zeros(COUNT), 0.1, 0.05
-    begun, generation = time.monotonic(), 0
-    while time.monotonic() - begun < seconds:
+    begun = time.monotonic()
+    for generation in range(1, generations + 1):
         noise = draws.normal(size=(PAIRS, COUNT)).astype(np.float32)
         # a change and its opposite go through the same episodes
         seeds = np.tile(np.arange(PAIRS) + PAIRS * generation, 2) % HELD_OUT
@@ -78,13 +81,14 @@ def learn(seconds, say=print):
         ranks = total.argsort().argsort() / (2 * PAIRS - 1) - 0.5
         slope = (ranks[:PAIRS] - ranks[PAIRS:]) @ noise / PAIRS
         # Adam (Kingma and Ba, 2015)
-        generation += 1
         mean = 0.9 * mean + 0.1 * slope
         square = 0.99 * square + 0.01 * slope**2
         step = (mean / (1 - 0.9**generation)) / (np.sqrt(square / (1 - 0.99**generation)) + 1e-8)
-        weights = (weights * 0.999 + rate * step).astype(np.float32)
+        weights = (weights + rate * step).astype(np.float32)
         if generation % 10 == 0:
-            say(f"generation {generation:3}, {time.monotonic() - begun:5.1f} s: {total.mean():+.3f} earned in 15 s")
+            print(
+                f"generation {generation:3}, {time.monotonic() - begun:5.1f} s: {total.mean():+.2f} in 15 s", flush=True
+            )
     return first, weights
 
 
@@ -104,10 +108,10 @@ def show(weights, seed, name, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--seconds", type=float, default=150)
+    parser.add_argument("--generations", type=int, default=150)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path())
     arguments = parser.parse_args()
-    before, after = learn(arguments.seconds)
+    before, after = learn(arguments.generations)
     then, now = success(before), success(after)
     print(f"goals reached in {len(then)} episodes that it never saw: {then.mean():.1%} before, {now.mean():.1%} after")
     gained = np.flatnonzero(now & ~then)

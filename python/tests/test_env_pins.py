@@ -4,6 +4,7 @@ import struct
 
 import numpy as np
 import pytest
+
 from motion_lab.envs import VectorEnv
 
 xxhash = pytest.importorskip("xxhash")

@@ -9,6 +9,7 @@ import warnings
 import numpy as np
 import pytest
 from gymnasium.vector import AsyncVectorEnv
+
 from motion_lab.envs import Env, VectorEnv
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")

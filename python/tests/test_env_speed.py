@@ -2,9 +2,10 @@
 
 import time
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 from motion_lab.envs import VectorEnv
 
 # a step's command, tick with contact and slip, scan, observation, reward and autoreset, from Python into fresh arrays

@@ -3,11 +3,12 @@
 import warnings
 
 import gymnasium as gym
-import motion_lab as ml
 import numpy as np
 import pytest
 from gymnasium.utils.env_checker import check_env
 from gymnasium.vector import AutoresetMode, SyncVectorEnv
+
+import motion_lab as ml
 from motion_lab.envs import Env, VectorEnv
 
 TASKS = ["RustyGoal", "HitchPark", "ReachPost"]

@@ -2,11 +2,12 @@
 
 import warnings
 
-import motion_lab as ml
 import numpy as np
 import pytest
-from motion_lab.pettingzoo import Warehouse
 from pettingzoo.test import parallel_api_test, parallel_seed_test
+
+import motion_lab as ml
+from motion_lab.pettingzoo import Warehouse
 
 
 def toward(seen):

@@ -9,6 +9,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 import pytest
+
 from motion_lab.envs import Env
 
 
