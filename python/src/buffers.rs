@@ -46,10 +46,7 @@ pub fn written<'py, T: Element>(name: &str, given: &Bound<'py, PyAny>) -> PyResu
     Ok(Places(array.try_readwrite().map_err(|_| PyValueError::new_err(words()))?))
 }
 
-fn c_ordered<'a, 'py, T: Element>(
-    name: &str,
-    given: &'a Bound<'py, PyAny>,
-) -> PyResult<&'a Bound<'py, PyArrayDyn<T>>> {
+fn c_ordered<'a, 'py, T: Element>(name: &str, given: &'a Bound<'py, PyAny>) -> PyResult<&'a Bound<'py, PyArrayDyn<T>>> {
     let array = given.cast::<PyArrayDyn<T>>().ok().filter(|array| array.is_c_contiguous() && array.is_aligned());
     array.ok_or_else(|| {
         let dtype = T::get_dtype(given.py());

@@ -102,11 +102,7 @@ impl PyEpisodes {
     /// Does work on the episodes with the interpreter's lock released, where there are many by the pool's threads.
     fn at_work<T: Send>(&mut self, py: Python<'_>, work: impl FnOnce(&mut AnyEpisodes) -> T + Send) -> PyResult<T> {
         let episodes = &mut self.episodes;
-        if episodes.count() >= MANY {
-            pool::install(py, || work(episodes))
-        } else {
-            Ok(py.detach(|| work(episodes)))
-        }
+        if episodes.count() >= MANY { pool::install(py, || work(episodes)) } else { Ok(py.detach(|| work(episodes))) }
     }
 }
 

@@ -2,8 +2,8 @@
 //!
 //! A [`LearningTask`] says what a robot sees, what its actions mean, what they earn and when an episode ends.
 //! [`Episodes`] runs as many as are asked for, each a run of the lab: [`Episodes::log`] gives it as a log that any
-//! program verifies. Three tasks are here: [`RustyGoal`], [`HitchPark`] and [`ReachPost`]. A [`Fleet`] is the first of them
-//! for many rovers in one run.
+//! program verifies. Three tasks are here: [`RustyGoal`], [`HitchPark`] and [`ReachPost`]. A [`Fleet`] is the first of
+//! them for many rovers in one run.
 
 mod draws;
 mod episode;
