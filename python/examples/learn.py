@@ -1,13 +1,15 @@
 """A rover learns to drive to goals by its lidar, with numpy alone: evolution strategies over a small network.
 
-    python learn.py [--generations 150] [--out .]
+    python learn.py [--generations 100] [--out .]
 
 Every generation tries 512 changes of the network's weights and their opposites, each for 300 ticks in an episode of its
 own, and moves the weights toward the changes that earned more (Salimans et al., 2017, "Evolution strategies as a
-scalable alternative to reinforcement learning"). One call steps all 1,024 rovers.
+scalable alternative to reinforcement learning"). One call steps all 1,024 rovers. A hundred generations take less than
+three minutes on two cores; before them the network reaches none of the goals, after them nearly half.
 
-Afterwards the network is asked about 256 episodes that it never saw, and one of them is written, before and after, as a
-picture (`before.svg`, `after.svg`) and as a log that verifies: `motion-lab verify after.mcap`.
+Afterwards the network is asked about 256 episodes that it never saw. One whose goal it reaches now and did not reach
+before is written twice, as a picture (`before.svg`, `after.svg`) and as a log that verifies: `motion-lab verify
+after.mcap`.
 """
 
 import argparse
@@ -108,7 +110,7 @@ def show(weights, seed, name, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--generations", type=int, default=150)
+    parser.add_argument("--generations", type=int, default=100)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path())
     arguments = parser.parse_args()
     before, after = learn(arguments.generations)
