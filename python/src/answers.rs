@@ -108,13 +108,16 @@ pub fn each_chunk(
     rows: usize,
     mut ask: impl FnMut(Range<usize>) -> Result<(), RowsError> + Send,
 ) -> PyResult<()> {
+    if rows <= FIRST {
+        return py.detach(|| ask(0..rows)).map_err(refused);
+    }
     let (mut at, mut size) = (0, FIRST);
     while at < rows {
         let part = at..rows.min(at + size);
         at = part.end;
         let began = Instant::now();
         let asked = if part.len() > ALONE { pool::install(py, || ask(part))? } else { py.detach(|| ask(part)) };
-        asked.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        asked.map_err(refused)?;
         py.check_signals()?;
         let took = began.elapsed();
         if took < SHORT {
@@ -124,4 +127,8 @@ pub fn each_chunk(
         }
     }
     Ok(())
+}
+
+fn refused(error: RowsError) -> PyErr {
+    PyValueError::new_err(error.to_string())
 }

@@ -18,6 +18,9 @@ use crate::errors::configuration_error;
 /// Most numbers in a row.
 pub const MAX_WIDTH: usize = 4;
 
+/// So many rows are checked before another thread misses the interpreter's lock.
+const QUICK: usize = 256;
+
 /// What the rows of an argument are: `a Disc's configuration`, of `x`, `y`.
 #[derive(Clone, Debug)]
 pub struct RowKind {
@@ -216,14 +219,20 @@ impl<'py> ManyRows<'py> {
     /// `ConfigurationError` names the first that is not.
     pub fn check<R: Robot>(&self, py: Python<'_>, robot: &R) -> PyResult<()> {
         let (numbers, width) = (self.numbers()?, self.width());
+        let rows = numbers.len() / width.max(1);
         let mut wrong = None;
-        each_chunk(py, numbers.len() / width.max(1), |part| {
+        let mut look = |part: Range<usize>| {
             let refused = rows_in(robot, numbers, width, &part).err();
             if let (Some(RowsError::Row { row, reason }), None) = (refused, &wrong) {
                 wrong = Some((part.start + row, reason));
             }
             Ok(())
-        })?;
+        };
+        if rows <= QUICK {
+            let _: Result<(), RowsError> = look(0..rows);
+        } else {
+            each_chunk(py, rows, look)?;
+        }
         match wrong {
             None => Ok(()),
             Some((row, reason)) => {

@@ -90,29 +90,32 @@ impl LabRobot {
         })
     }
 
-    /// Its sizes by the names of its constructor's arguments, as Python writes them.
-    fn arguments(&self) -> Vec<(&'static str, String)> {
-        let number = |x: f64| format!("{x:?}");
+    /// The lab's own robot of this class.
+    fn own(&self) -> Self {
         match self {
-            LabRobot::Disc(disc) => vec![("radius", number(disc.radius))],
-            LabRobot::Rusty(rover) => vec![("radius", number(rover.body_radius))],
-            LabRobot::Reach2(arm) => arm_arguments(arm),
-            LabRobot::Reach3(arm) => arm_arguments(arm),
-            LabRobot::Hitch(car) => {
-                let has_trailer = if car.hitch_len.is_some() { "True" } else { "False" };
-                vec![("trailer", has_trailer.to_owned())]
-            }
+            LabRobot::Disc(_) => LabRobot::Disc(RustyDisc::default()),
+            LabRobot::Rusty(_) => LabRobot::Rusty(RUSTY),
+            LabRobot::Reach2(_) | LabRobot::Reach3(_) => LabRobot::Reach2(Reach::workbench()),
+            LabRobot::Hitch(_) => LabRobot::Hitch(HITCH),
         }
     }
-}
 
-fn arm_arguments<const N: usize>(arm: &Reach<N>) -> Vec<(&'static str, String)> {
-    let lengths: Vec<String> = arm.lengths.iter().map(|length| format!("{length:?}")).collect();
-    vec![
-        ("lengths", format!("({})", lengths.join(", "))),
-        ("base", format!("({:?}, {:?})", arm.base.x, arm.base.y)),
-        ("radius", format!("{:?}", arm.link_radius)),
-    ]
+    /// The arguments of its class that make it.
+    fn arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let of = PyDict::new(py);
+        match self {
+            LabRobot::Disc(disc) => of.set_item("radius", disc.radius)?,
+            LabRobot::Rusty(rover) => {
+                of.set_item("radius", rover.body_radius)?;
+                of.set_item("track", rover.track)?;
+                of.set_item("wheel_radius", rover.wheel_radius)?;
+            }
+            LabRobot::Reach2(arm) => keep_arm(&of, arm)?,
+            LabRobot::Reach3(arm) => keep_arm(&of, arm)?,
+            LabRobot::Hitch(car) => keep_car(&of, car)?,
+        }
+        Ok(of)
+    }
 }
 
 /// A robot of the lab: a `Disc`, `Rusty`, `Reach` or `Hitch`. Two are equal when all their sizes are.
@@ -145,10 +148,16 @@ impl PyRobot {
         PyTuple::new(py, (self.robot.lengths()..self.robot.coordinates().len()).collect::<Vec<_>>())
     }
 
-    fn __repr__(&self) -> String {
-        let arguments = self.robot.arguments();
-        let written: Vec<String> = arguments.iter().map(|(name, value)| format!("{name}={value}")).collect();
-        format!("{}({})", self.robot.class(), written.join(", "))
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let own = self.robot.own().arguments(py)?;
+        let mut written = Vec::new();
+        for (name, value) in self.robot.arguments(py)? {
+            let is_own = own.get_item(&name)?.is_some_and(|own| own.eq(&value).unwrap_or(false));
+            if !is_own {
+                written.push(format!("{name}={}", value.repr()?));
+            }
+        }
+        Ok(format!("{}({})", self.robot.class(), written.join(", ")))
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -163,24 +172,12 @@ impl PyRobot {
 
     /// What pickles hold: the arguments of its class.
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyTuple>, Bound<'py, PyDict>)> {
-        let of = PyDict::new(py);
-        match self.robot {
-            LabRobot::Disc(RustyDisc { radius }) => of.set_item("radius", radius)?,
-            LabRobot::Rusty(rover) => {
-                of.set_item("radius", rover.body_radius)?;
-                of.set_item("track", rover.track)?;
-                of.set_item("wheel_radius", rover.wheel_radius)?;
-            }
-            LabRobot::Reach2(arm) => keep_arm(&of, &arm)?,
-            LabRobot::Reach3(arm) => keep_arm(&of, &arm)?,
-            LabRobot::Hitch(car) => keep_car(&of, &car)?,
-        }
-        Ok((PyTuple::empty(py), of))
+        Ok((PyTuple::empty(py), self.robot.arguments(py)?))
     }
 }
 
 fn keep_arm<const N: usize>(of: &Bound<'_, PyDict>, arm: &Reach<N>) -> PyResult<()> {
-    of.set_item("lengths", arm.lengths.to_vec())?;
+    of.set_item("lengths", PyTuple::new(of.py(), arm.lengths)?)?;
     of.set_item("base", (arm.base.x, arm.base.y))?;
     of.set_item("radius", arm.link_radius)
 }
@@ -282,7 +279,10 @@ impl PyReach {
         let n = lengths.len();
         let sizes = Sizes::Arm(ArmSizes { base, lengths, radius });
         if !(n == 2 || n == 3) {
-            return Err(Error::new_err(format!("{n} lengths: an arm has 2 or 3 links")));
+            return Err(Error::new_err(format!(
+                "{n} length{}: an arm has 2 or 3 links",
+                if n == 1 { "" } else { "s" }
+            )));
         }
         let sized = checked(&sizes)?;
         let two = sized.and_then(|sizes| own.with_sizes(sizes)).map(LabRobot::Reach2);
