@@ -9,6 +9,7 @@ use pyo3::types::{PyDict, PyTuple};
 
 use motion_lab_sim::recording::Recorder;
 use motion_lab_sim::run::{Recipe, RobotState};
+use motion_lab_sim::tour::{ConfigError, MAX_TICKS};
 
 use crate::errors::RunError;
 use crate::frame::PyFrame;
@@ -26,6 +27,11 @@ use crate::world::PyWorld;
 #[pyclass(frozen, name = "Recorder", module = "motion_lab")]
 pub struct PyRecorder {
     run: Mutex<Recorder>,
+}
+
+/// The tick, if a run may have so many.
+fn allowed(tick: u64) -> PyResult<u64> {
+    if tick <= MAX_TICKS { Ok(tick) } else { Err(RunError::new_err(ConfigError::Ticks(tick).to_string())) }
 }
 
 impl PyRecorder {
@@ -116,7 +122,7 @@ impl PyRecorder {
         let n = natural_or_none("n", n)?.unwrap_or(1);
         let mut run = self.now()?;
         let run = &mut *run;
-        let until = run.frame().tick.saturating_add(n);
+        let until = allowed(run.frame().tick.saturating_add(n))?;
         let robots = run.frame().robots.len();
         interrupt::until(py, robots, || {
             if run.frame().tick >= until {
@@ -131,7 +137,7 @@ impl PyRecorder {
     ///
     /// Ctrl+C stops the way ahead within 0.1 s.
     fn seek(&self, py: Python<'_>, tick: &Bound<'_, PyAny>) -> PyResult<()> {
-        let tick = natural("tick", tick)?;
+        let tick = allowed(natural("tick", tick)?)?;
         let mut run = self.now()?;
         let run = &mut *run;
         let robots = run.frame().robots.len();

@@ -40,6 +40,21 @@ def test_a_world_is_drawn_on_axes_in_metres():
     pyplot.close(figure)
 
 
+def test_open_doors_are_drawn_dashed_across_their_gaps():
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("agg")
+    from matplotlib import pyplot
+
+    # of worlds/apartment.ron: (name: "door A", hinge: (2.5, 4.75), end: (3.375, 4.75), open: true)
+    figure, ax = pyplot.subplots()
+    ml.World("apartment").draw(ax)
+    gap, leaf = [collection for collection in ax.collections if collection.get_gid() == "door A"]
+    assert gap.get_paths()[0].vertices.tolist() == [[2.5, 4.75], [3.375, 4.75]]
+    assert leaf.get_paths()[0].vertices.tolist() == [[2.5, 4.75], [2.5, 5.625]], "a quarter about its hinge"
+    assert gap.get_linestyle()[0][1] is not None and leaf.get_linestyle()[0][1] is None
+    pyplot.close(figure)
+
+
 def test_runs_and_plans_load_neither_pandas_nor_matplotlib():
     code = (
         "import sys, motion_lab as ml; run = ml.record(ticks=1); run.states('Rusty'); run.plot();"

@@ -142,6 +142,8 @@ def test_what_no_script_could_hold_is_refused_and_changes_nothing():
         (lambda: live.change("Apartment", add=("x", [], 0.1)), ml.RunError, "0 coordinates: there must be 1 to 64"),
         (lambda: live.change("Apartment", drive=(1, 2)), TypeError, "drive: a change of a world is one of close"),
         (lambda: live.step(-1), ValueError, "n -1: it must be from 0"),
+        (lambda: live.step(1 << 33), ml.RunError, "8589934592 ticks: at most 4294967296"),
+        (lambda: live.seek(1 << 33), ml.RunError, "8589934592 ticks: at most 4294967296"),
         (lambda: live.seek(1.5), TypeError, "tick: a whole number, not float"),
         (lambda: live.configuration("X"), ml.RunError, 'the run has no robot "X"'),
         (lambda: live.scan("Reach"), IndexError, "Reach has 0 range sensors"),
