@@ -4,6 +4,7 @@
 
 mod answers;
 mod arrays;
+mod batches;
 mod buffers;
 mod certificate;
 mod checker;
