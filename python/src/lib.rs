@@ -2,6 +2,35 @@
 #![deny(missing_docs)]
 #![forbid(unsafe_code)]
 
+mod answers;
+mod arrays;
+mod batches;
+mod buffers;
+mod certificate;
+mod checker;
+mod drawing;
+mod episodes;
+mod errors;
+mod file;
+mod fleet;
+mod frame;
+mod interrupt;
+mod natural;
+mod path;
+mod picture;
+mod planning;
+mod pool;
+mod recorder;
+mod robot;
+mod run;
+mod scan;
+mod script;
+mod shapes;
+mod table;
+mod verdicts;
+mod verification;
+mod world;
+
 use pyo3::prelude::*;
 
 /// The compiled part of the package `motion_lab`.
@@ -14,4 +43,44 @@ mod _core {
     fn world_names() -> [&'static str; 3] {
         motion_lab_core::worlds::World::built_in_names()
     }
+
+    // questions
+    #[pymodule_export]
+    use crate::certificate::PyCertificate;
+    #[pymodule_export]
+    use crate::checker::PyChecker;
+    #[pymodule_export]
+    use crate::errors::{ConfigurationError, Error, LogError, NoPath, RunError, WorldError};
+    #[pymodule_export]
+    use crate::pool::{set_threads, threads};
+    #[pymodule_export]
+    use crate::robot::{PyDisc, PyHitch, PyReach, PyRobot, PyRusty};
+    #[pymodule_export]
+    use crate::scan::scan;
+    #[pymodule_export]
+    use crate::world::{PyObstacle, PyResident, PyWorld};
+
+    // plans and runs
+    #[pymodule_export]
+    use crate::drawing::_drawing;
+    #[pymodule_export]
+    use crate::frame::PyFrame;
+    #[pymodule_export]
+    use crate::path::PyPath;
+    #[pymodule_export]
+    use crate::picture::PyPicture;
+    #[pymodule_export]
+    use crate::planning::{plan, planner_names};
+    #[pymodule_export]
+    use crate::recorder::PyRecorder;
+    #[pymodule_export]
+    use crate::run::{PyRun, read, record};
+    #[pymodule_export]
+    use crate::verification::{PyDifference, PyVerification};
+
+    // environments
+    #[pymodule_export]
+    use crate::episodes::PyEpisodes;
+    #[pymodule_export]
+    use crate::fleet::PyFleet;
 }

@@ -1,5 +1,99 @@
-"""A deterministic 2D robot-motion laboratory."""
+"""A deterministic 2D robot-motion laboratory: collision answers with proofs, planners, exact replay, environments.
 
-from ._core import world_names
+Metres, radians, seconds, float64. Touching is contact. The last axis of an array is the configuration.
+"""
 
-__all__ = ["world_names"]
+from typing import TYPE_CHECKING
+
+# questions
+from ._core import (
+    Certificate,
+    Checker,
+    ConfigurationError,
+    Difference,
+    Disc,
+    Error,
+    Frame,
+    Hitch,
+    LogError,
+    NoPath,
+    Obstacle,
+    Path,
+    Picture,
+    Reach,
+    Recorder,
+    Resident,
+    Robot,
+    Run,
+    RunError,
+    Rusty,
+    Verification,
+    World,
+    WorldError,
+    plan,
+    planner_names,
+    read,
+    record,
+    scan,
+    set_threads,
+    threads,
+    world_names,
+)
+
+if TYPE_CHECKING:
+    from ._answers import FREE, HIT, UNRESOLVED, Edge, Shape, Verdict, Witness
+
+__all__ = [
+    "FREE",
+    "HIT",
+    "UNRESOLVED",
+    "Certificate",
+    "Checker",
+    "ConfigurationError",
+    "Difference",
+    "Disc",
+    "Edge",
+    "Error",
+    "Frame",
+    "Hitch",
+    "LogError",
+    "NoPath",
+    "Obstacle",
+    "Path",
+    "Picture",
+    "Reach",
+    "Recorder",
+    "Resident",
+    "Robot",
+    "Run",
+    "RunError",
+    "Rusty",
+    "Shape",
+    "Verdict",
+    "Verification",
+    "Witness",
+    "World",
+    "WorldError",
+    "plan",
+    "planner_names",
+    "read",
+    "record",
+    "scan",
+    "set_threads",
+    "threads",
+    "world_names",
+]
+
+# what is loaded when it is first asked for, and from which module
+_LATER = dict.fromkeys(["FREE", "HIT", "UNRESOLVED", "Edge", "Shape", "Verdict", "Witness"], "_answers")
+
+
+def __getattr__(name: str) -> object:
+    module = _LATER.get(name)
+    if module is None:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(f"{__name__}.{module}"), name)
+    globals()[name] = value
+    return value

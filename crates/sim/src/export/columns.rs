@@ -97,6 +97,12 @@ impl Columns {
         Columns { list, names, places }
     }
 
+    /// Whether robot number `robot` has a number in the column of this name; `None` where no column is called so.
+    pub fn has(&self, robot: usize, name: &str) -> Option<bool> {
+        let column = self.names.iter().position(|own| own == name)?;
+        Some(self.places.get(robot)?.get(column)?.is_some())
+    }
+
     /// The numbers of robot number `robot` in a state, one for each column.
     pub fn numbers<'a>(&'a self, robot: usize, state: &'a RobotState) -> impl Iterator<Item = Option<f64>> + 'a {
         let numbers = self.list.of(state);

@@ -4,19 +4,10 @@ use std::fmt::Write;
 use std::io;
 
 use super::ExportError;
-use super::columns::{Columns, StateList, residents};
 use super::every_frame::every_frame;
-use crate::run::{DT, Frame, Log, RobotState};
+use super::table::{Cell, NamedRobot, TableHead};
+use crate::run::Log;
 use motion_lab_core::configuration::Kinds;
-
-/// The columns of a log.
-struct CsvHead {
-    configuration: Columns,
-    extra: Columns,
-    target: Columns,
-    /// The number of rays of each of a robot's sensors, from the first on: the largest in the log.
-    ranges: Vec<usize>,
-}
 
 /// Writes a log as CSV: the names of the columns, then a row for each tick from 0 on and each robot by id. A cell
 /// without a value is empty. A name ends with its unit: `_s` seconds, `_m` metres, `_rad` radians.
@@ -41,14 +32,14 @@ pub fn write_csv(log: &Log, ranges: bool, out: impl io::Write) -> Result<(), Exp
 /// # Errors
 /// As [`write_csv`].
 pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl io::Write) -> Result<(), ExportError> {
-    let head = CsvHead::of(log, kinds, ranges);
-    writeln!(out, "{}", head.names())?;
+    let head = TableHead::of(log, kinds, ranges);
+    writeln!(out, "{}", head.names().join(","))?;
     let names: Vec<String> = log.recipe.config.robot_names().map(csv_cell).collect();
     let mut row = String::new();
     for frame in every_frame(log) {
         for (number, (name, robot)) in names.iter().zip(&frame.robots).enumerate() {
             row.clear();
-            head.row(frame, NamedRobot { number, name }, robot, &mut row);
+            head.cells(frame, NamedRobot { number, name }, robot, |cell| print(cell, &mut row));
             row.push('\n');
             out.write_all(row.as_bytes())?;
         }
@@ -56,91 +47,19 @@ pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl 
     Ok(())
 }
 
-/// A robot's number by id, and its name as a cell.
-#[derive(Clone, Copy)]
-struct NamedRobot<'a> {
-    number: usize,
-    name: &'a str,
-}
-
-impl CsvHead {
-    fn of(log: &Log, kinds: &Kinds, ranges: bool) -> Self {
-        let mut widths = [StateList::Configuration, StateList::Extra, StateList::Target]
-            .map(|list| (list, vec![0; residents(log).count()]));
-        let mut of_sensors: Vec<usize> = Vec::new();
-        for frame in every_frame(log) {
-            for (list, widths) in &mut widths {
-                for (width, robot) in widths.iter_mut().zip(&frame.robots) {
-                    *width = (*width).max(list.of(robot).len());
-                }
-            }
-            for scans in frame.scans.chunk_by(|a, b| a.robot == b.robot).filter(|_| ranges) {
-                of_sensors.resize(of_sensors.len().max(scans.len()), 0);
-                for (width, scan) in of_sensors.iter_mut().zip(scans) {
-                    *width = (*width).max(scan.ranges.len());
-                }
-            }
-        }
-        let [configuration, extra, target] = widths.map(|(list, widths)| Columns::new(list, log, kinds, &widths));
-        CsvHead { configuration, extra, target, ranges: of_sensors }
-    }
-
-    fn names(&self) -> String {
-        let mut head = "tick,time_s,id,robot".to_owned();
-        let mut list = |names: &[String]| names.iter().for_each(|name| _ = write!(head, ",{name}"));
-        list(&self.configuration.names);
-        list(&self.extra.names);
-        list(&["channel0", "channel1"].map(str::to_owned));
-        list(&self.target.names);
-        head.push_str(",manual,in_contact,contacts,flash,refusals");
-        for (sensor, width) in self.ranges.iter().enumerate() {
-            for i in 0..*width {
-                let _ = match sensor {
-                    0 => write!(head, ",range{i}_m"),
-                    _ => write!(head, ",scan{}_range{i}_m", sensor + 1),
-                };
-            }
-        }
-        head
-    }
-
-    fn row(&self, frame: &Frame, NamedRobot { number, name }: NamedRobot<'_>, robot: &RobotState, row: &mut String) {
-        // taken apart by name, so that a field added later can't be forgotten here
-        let RobotState {
-            id,
-            configuration: _,
-            extra: _,
-            channels,
-            target: _,
-            manual,
-            in_contact,
-            contacts,
-            flash,
-            refusals,
-        } = robot;
-        let Frame { tick, .. } = frame;
-        // writing into a string can't fail
-        let _ = write!(row, "{tick},{:?},{id},{name}", *tick as f64 * DT);
-        cells(self.configuration.numbers(number, robot), row);
-        cells(self.extra.numbers(number, robot), row);
-        let _ = write!(row, ",{},{}", channels[0], channels[1]);
-        cells(self.target.numbers(number, robot), row);
-        let _ = write!(row, ",{manual},{in_contact},{contacts},{flash},{refusals}");
-        let mut scans = frame.scans.iter().filter(|scan| scan.robot == *id);
-        for width in &self.ranges {
-            let ranges = scans.next().map_or(&[][..], |scan| &scan.ranges);
-            cells((0..*width).map(|i| ranges.get(i).copied()), row);
-        }
-    }
-}
-
-fn cells(numbers: impl Iterator<Item = Option<f64>>, row: &mut String) {
-    for number in numbers {
+/// Adds a cell to a row, after a comma if it is not the first.
+fn print(cell: Cell<'_>, row: &mut String) {
+    if !row.is_empty() {
         row.push(',');
-        if let Some(x) = number {
-            let _ = write!(row, "{x:?}");
-        }
     }
+    // writing into a string can't fail
+    let _ = match cell {
+        Cell::Integer(x) => write!(row, "{x}"),
+        Cell::Number(Some(x)) => write!(row, "{x:?}"),
+        Cell::Number(None) => Ok(()),
+        Cell::Flag(x) => write!(row, "{x}"),
+        Cell::Name(name) => row.write_str(name),
+    };
 }
 
 /// A text as a cell: in quotes where it has to be, also for programs that take `;` or a tab for the comma.
@@ -180,7 +99,8 @@ mod tests {
     #[test]
     fn numbers_keep_every_bit_and_missing_ones_are_empty() {
         let mut row = String::new();
-        cells([Some(0.1 + 0.2), Some(-0.0), None, Some(f64::INFINITY), Some(5e-324)].into_iter(), &mut row);
-        assert_eq!(row, ",0.30000000000000004,-0.0,,inf,5e-324");
+        let numbers = [Some(0.1 + 0.2), Some(-0.0), None, Some(f64::INFINITY), Some(5e-324)];
+        numbers.into_iter().for_each(|x| print(Cell::Number(x), &mut row));
+        assert_eq!(row, "0.30000000000000004,-0.0,,inf,5e-324");
     }
 }

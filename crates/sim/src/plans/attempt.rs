@@ -124,6 +124,13 @@ pub trait PlanAttempt: Send {
     /// The path's length and the clearance proven along it; zeros without a path.
     fn lengths(&self) -> PathLengths;
 
+    /// The clearance of a proven path, metres, after its certificates were checked once more; `None` without such a
+    /// path.
+    ///
+    /// # Errors
+    /// Within, [`PathError`] names the first leg that is not proven.
+    fn verify(&self) -> Option<Result<f64, PathError>>;
+
     /// What the exact scene says of a path that a black box calls free: the clearance that it proves along it, metres,
     /// or which leg it does not prove free, and where that hits. `None` without a path, and of one that is proven.
     fn judged(&self) -> Option<Result<f64, PathError>>;
@@ -298,6 +305,12 @@ where
             length: self.motions().map(|motion| motion.length()).sum(),
             clearance: self.path.as_ref().map_or(0.0, CertifiedPath::clearance),
         }
+    }
+
+    fn verify(&self) -> Option<Result<f64, PathError>> {
+        let kept = self.kept.as_ref().map(|(checker, _)| checker);
+        let checker = kept.unwrap_or(self.planner.problem().checker());
+        self.path.as_ref().map(|path| path.verify(checker.scene()))
     }
 
     fn judged(&self) -> Option<Result<f64, PathError>> {

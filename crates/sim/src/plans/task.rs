@@ -304,6 +304,21 @@ mod tests {
     }
 
     #[test]
+    fn a_path_verifies_once_more_with_the_clearance_that_it_has() {
+        for task in &tasks()[..3] {
+            let mut attempt = task.attempt(PlannerName::RrtConnect, Seed(2005)).unwrap();
+            assert_eq!(attempt.verify(), None, "there is no path yet");
+            while attempt.step() == Progress::Growing {}
+            let clearance = attempt.lengths().clearance;
+            assert!(clearance > 0.0 && attempt.verify() == Some(Ok(clearance)), "{}", task.name);
+        }
+        let unproven = Task { checker: CheckerName::PARRY, ..Task::round_the_post() };
+        let mut attempt = unproven.attempt(PlannerName::RrtConnect, Seed(2005)).unwrap();
+        while attempt.step() == Progress::Growing {}
+        assert!(attempt.verify().is_none() && attempt.judged().is_some());
+    }
+
+    #[test]
     fn planners_that_draw_samples_keep_a_millimetre_where_start_and_goal_have_more() {
         use PlannerName::{Prm, Rrt, RrtConnect, RrtStar};
         let text = "World(version: 1, name: \"hall\", bounds: (min: (0, 0), max: (4, 4)), \

@@ -1,7 +1,8 @@
 //! `EpisodesError`, why episodes cannot begin or go on.
 
 use crate::recording::RunError;
-use crate::simulation::SpawnError;
+use crate::simulation::{CommandError, SpawnError};
+use motion_lab_core::worlds::WarehouseError;
 
 /// Why episodes cannot begin or go on. What the caller gave is checked before anything changes.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -13,6 +14,12 @@ pub enum EpisodesError {
     /// An episode's run cannot be recorded.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// The warehouse cannot be generated.
+    #[error(transparent)]
+    Warehouse(#[from] WarehouseError),
+    /// The run takes no more inputs.
+    #[error(transparent)]
+    Command(#[from] CommandError),
     /// Numbers that are not as many as there are places for.
     #[error("{numbers} {what}, but {right} are needed: {each} for each of {episodes} episodes")]
     Count {

@@ -31,7 +31,7 @@ const REACHED: f64 = 0.25;
 /// So far from everything start and goal are, metres.
 const ROOM: f64 = 0.2;
 /// The rays.
-const SENSOR: RangeSensor = RangeSensor { n_rays: 360, max_range: 4.0 };
+pub(super) const SENSOR: RangeSensor = RangeSensor { n_rays: 360, max_range: 4.0 };
 
 impl RustyGoal {
     /// The task in the Apartment.
@@ -59,7 +59,7 @@ impl Default for RustyGoal {
     }
 }
 
-fn distance(q: &Pose2, goal: &Point2) -> f64 {
+pub(super) fn distance(q: &Pose2, goal: &Point2) -> f64 {
     num::hypot(goal.x - q.x, goal.y - q.y)
 }
 
@@ -83,18 +83,28 @@ impl LearningTask for RustyGoal {
     }
 
     fn observe(&self, goal: &Point2, now: &EpisodeMoment<'_, Rusty>, observation: &mut [f32]) {
-        let (rays, rest) = observation.split_at_mut(now.ranges.len().min(observation.len()));
-        for (place, range) in rays.iter_mut().zip(now.ranges) {
-            *place = num::lesser(range / SENSOR.max_range, 1.0) as f32;
-        }
-        let bearing = num::atan2(goal.y - now.q.y, goal.x - now.q.x) - now.q.theta;
-        let (sin, cos) = num::sin_cos(bearing);
-        write([distance(now.q, goal) / SENSOR.max_range, cos, sin], rest);
+        observe_goal(goal, now, observation);
     }
 
     fn judge(&self, goal: &Point2, now: &EpisodeMoment<'_, Rusty>) -> Judgement {
-        let left = distance(now.q, goal);
-        let nearer = distance(now.before, goal) - left;
-        Judgement::of(nearer, now.in_contact, left <= REACHED)
+        judge_goal(goal, now)
     }
+}
+
+/// What a rover observes: its rays, and where its goal is.
+pub(super) fn observe_goal(goal: &Point2, now: &EpisodeMoment<'_, Rusty>, observation: &mut [f32]) {
+    let (rays, rest) = observation.split_at_mut(now.ranges.len().min(observation.len()));
+    for (place, range) in rays.iter_mut().zip(now.ranges) {
+        *place = num::lesser(range / SENSOR.max_range, 1.0) as f32;
+    }
+    let bearing = num::atan2(goal.y - now.q.y, goal.x - now.q.x) - now.q.theta;
+    let (sin, cos) = num::sin_cos(bearing);
+    write([distance(now.q, goal) / SENSOR.max_range, cos, sin], rest);
+}
+
+/// What a tick earns on the way to a goal.
+pub(super) fn judge_goal(goal: &Point2, now: &EpisodeMoment<'_, Rusty>) -> Judgement {
+    let left = distance(now.q, goal);
+    let nearer = distance(now.before, goal) - left;
+    Judgement::of(nearer, now.in_contact, left <= REACHED)
 }

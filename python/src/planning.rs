@@ -1,0 +1,198 @@
+//! `plan`, a planner at work until it has a path.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+use motion_lab_core::collision::Scene;
+use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
+use motion_lab_core::geometry::Pose2;
+use motion_lab_core::names::{hint, nearest};
+use motion_lab_core::planning::{Bounds, NoPath as LabNoPath};
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::{AnyRobot, RUSTY, Robot, Rusty};
+use motion_lab_core::worlds::World;
+use motion_lab_sim::plans::{CheckerName, MAX_CLEARANCE, PlanAttempt, PlannerName, Task};
+use motion_lab_sim::tour::BOOK_SEED;
+
+use crate::arrays::Given;
+use crate::checker::PyChecker;
+use crate::errors::{NoPath, configuration_error};
+use crate::natural::natural_or_none;
+use crate::path::PyPath;
+use crate::robot::{LabRobot, PyRobot};
+use crate::world::PyWorld;
+
+/// How long a planner works before somebody may stop it.
+const PIECE: Duration = Duration::from_millis(20);
+
+/// The names of the planners, for `plan`.
+#[pyfunction]
+pub fn planner_names() -> Vec<&'static str> {
+    PlannerName::ALL.into_iter().map(PlannerName::id).collect()
+}
+
+/// Plan a path for a checker's robot in its world, from `start` to `goal`, configurations of metres and radians. Every
+/// leg of the path is proven free, touching nothing, and its proof was checked by code that did not make it. Instead of
+/// a `Checker` it takes a `World` or the name of one, and a `robot`.
+///
+/// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. `seed`, 2005, is what
+/// its samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its path
+/// is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its goal.
+///
+/// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
+/// samples, if start and goal have it, else 0. `budget` is the greatest number of iterations, 100,000 if left out
+/// (20,000 for `hybrid-a-star`); with it `rrt-star` goes on to there and shortens its path. `tube` is how much larger a
+/// disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
+///
+/// Raises NoPath, which says why there is none; ConfigurationError for ends that are none of the robot's
+/// configurations. Ctrl+C stops it within 0.1 s.
+#[pyfunction]
+#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None, budget = None, tube = 0.0))]
+#[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+pub fn plan(
+    py: Python<'_>,
+    checker: &Bound<'_, PyAny>,
+    start: &Bound<'_, PyAny>,
+    goal: &Bound<'_, PyAny>,
+    robot: Option<&Bound<'_, PyRobot>>,
+    planner: Option<&str>,
+    seed: Option<&Bound<'_, PyAny>>,
+    clearance: Option<f64>,
+    budget: Option<&Bound<'_, PyAny>>,
+    tube: f64,
+) -> PyResult<PyPath> {
+    let seed = natural_or_none("seed", seed)?.map_or(BOOK_SEED, Seed);
+    let budget = natural_or_none("budget", budget)?;
+    let (world, scene, robot) = place(checker, robot)?;
+    let ends = [end(&robot, "start", start)?, end(&robot, "goal", goal)?];
+    let lab = any_robot(&robot);
+    let name = planner.map_or(Ok(PlannerName::default_for(&lab)), named)?;
+    if let Some(kept) = clearance.filter(|kept| !(0.0..=MAX_CLEARANCE).contains(kept)) {
+        return Err(PyValueError::new_err(format!("clearance {kept}: it must be from 0 to {MAX_CLEARANCE} m")));
+    }
+    if !(0.0..=1.0).contains(&tube) {
+        return Err(PyValueError::new_err(format!("tube {tube}: it must be from 0 to 1 m")));
+    }
+    let task = task(lab, (*world).clone(), scene, ends);
+    let task = Task { tube, clearance, ..task };
+    let no_path = |reason: LabNoPath| NoPath::new_err(reason.to_string());
+    let mut attempt = py.detach(|| task.attempt(name, seed)).map_err(no_path)?;
+    let solved = solve(py, attempt.as_mut(), name, budget)?;
+    solved.map_err(no_path)?;
+    Ok(PyPath::new(robot, task, name, seed.0, attempt))
+}
+
+/// The world, its obstacles under an index, and the robot that a path is planned for.
+fn place(given: &Bound<'_, PyAny>, robot: Option<&Bound<'_, PyRobot>>) -> PyResult<(Arc<World>, Arc<Scene>, LabRobot)> {
+    let (world, robot) = match (given.cast::<PyChecker>(), robot) {
+        (Ok(checker), None) => {
+            let checker = checker.get();
+            (checker.world.bind(given.py()).clone(), checker.robot.bind(given.py()).clone())
+        }
+        (Ok(_), Some(_)) => return Err(PyTypeError::new_err("a Checker has its robot: leave out robot=")),
+        (Err(_), Some(robot)) => (PyWorld::of(given)?, robot.clone()),
+        (Err(_), None) => {
+            return Err(PyTypeError::new_err("a path is planned for a Checker, or for a World and robot="));
+        }
+    };
+    let world = world.get();
+    Ok((Arc::clone(&world.world), world.scene(), robot.get().robot))
+}
+
+/// The planner of this name.
+fn named(name: &str) -> PyResult<PlannerName> {
+    PlannerName::of(name).ok_or_else(|| {
+        let near = hint(nearest(name, PlannerName::ALL.map(PlannerName::id)));
+        PyValueError::new_err(format!("no planner is called {name:?}{near}"))
+    })
+}
+
+/// The task of a robot in a world of which the scene is there already.
+fn task(robot: AnyRobot, world: World, scene: Arc<Scene>, [start, goal]: [AnyConfiguration; 2]) -> Task {
+    Task {
+        name: robot.title().to_owned(),
+        robot,
+        world,
+        scene,
+        start,
+        goal,
+        tube: 0.0,
+        clearance: None,
+        noise: None,
+        checker: CheckerName::EXACT,
+    }
+}
+
+/// The lab's robot for planners: a disc is the rover's body.
+fn any_robot(robot: &LabRobot) -> AnyRobot {
+    match *robot {
+        LabRobot::Disc(disc) => AnyRobot::Rusty(Rusty { body_radius: disc.radius, ..RUSTY }),
+        LabRobot::Rusty(rover) => AnyRobot::Rusty(rover),
+        LabRobot::Reach2(arm) => AnyRobot::Reach(arm),
+        LabRobot::Reach3(arm) => AnyRobot::Reach3(arm),
+        LabRobot::Hitch(car) => AnyRobot::Hitch(car),
+    }
+}
+
+/// One end of a path.
+fn end(robot: &LabRobot, name: &'static str, given: &Bound<'_, PyAny>) -> PyResult<AnyConfiguration> {
+    let row = match robot.row_kind().read(name, given)? {
+        Given::One(row) => row,
+        Given::Many(_) => return Err(PyTypeError::new_err(format!("{name} is one configuration, not many"))),
+    };
+    let q = match (robot, row.numbers()) {
+        (LabRobot::Disc(_), &[x, y]) => Pose2::new(x, y, 0.0).into(),
+        (LabRobot::Rusty(_), &[x, y, theta]) => Pose2::new(x, y, theta).into(),
+        (LabRobot::Reach2(_), &[a, b]) => Tn([a, b]).into(),
+        (LabRobot::Reach3(_), &[a, b, c]) => Tn([a, b, c]).into(),
+        (LabRobot::Hitch(_), &[x, y, theta]) => HitchCfg { body: Pose2::new(x, y, theta), trailer: None }.into(),
+        (LabRobot::Hitch(_), &[x, y, theta, psi]) => {
+            HitchCfg { body: Pose2::new(x, y, theta), trailer: Some(psi) }.into()
+        }
+        _ => return Err(PyTypeError::new_err(format!("{name} is no configuration of this robot"))),
+    };
+    let checked: Result<(), _> = any_robot(robot).check(&q);
+    checked.map_err(|error| configuration_error(given.py(), name, &[], &error.to_string()))?;
+    Ok(q.in_chart())
+}
+
+/// Works on a path until it is there or there will be none, and hears Ctrl+C in between.
+fn solve(
+    py: Python<'_>,
+    attempt: &mut dyn PlanAttempt,
+    name: PlannerName,
+    budget: Option<u64>,
+) -> PyResult<Result<(), LabNoPath>> {
+    let most = budget.unwrap_or(name.iterations());
+    let mut is_solved = false;
+    loop {
+        let done = py.detach(|| {
+            let begun = Instant::now();
+            while begun.elapsed() < PIECE {
+                let next = Bounds::of_iterations(most.min(attempt.effort().iterations.saturating_add(1)));
+                if is_solved {
+                    let before = attempt.effort();
+                    let improved = if before.iterations >= most { Ok(()) } else { attempt.improve(&next) };
+                    // one that improves nothing does nothing more
+                    if improved.is_err() || attempt.effort() == before {
+                        return Some(improved);
+                    }
+                    continue;
+                }
+                match attempt.solve(&next) {
+                    Err(LabNoPath::Exhausted { .. }) if next.iterations < most => {}
+                    Ok(()) if budget.is_some() => is_solved = true,
+                    solved => return Some(solved),
+                }
+            }
+            None
+        });
+        if let Some(done) = done {
+            return Ok(done);
+        }
+        py.check_signals()?;
+    }
+}

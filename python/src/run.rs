@@ -1,0 +1,475 @@
+//! `Run`, a recorded run, and what there is to ask of it.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, OnceLock};
+
+use numpy::{IntoPyArray, PyArrayMethods};
+use pyo3::exceptions::{PyFileExistsError, PyIndexError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyString, PyTuple, PyType};
+
+use motion_lab_core::names::{hint, nearest};
+use motion_lab_core::random::Seed;
+use motion_lab_core::sensors::RangeSensor;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::capture::run_svg;
+use motion_lab_sim::export::{table, table_of_robot, write_csv};
+use motion_lab_sim::recording::Recorder;
+use motion_lab_sim::run::{DIGEST_TICKS, RunInput, SecondDigests};
+use motion_lab_sim::run::{Digest, Frame, Log, LogError as LabLogError, LogKind, Recipe, Recorded, RunDigest};
+use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
+
+use crate::errors::{LogError, RunError};
+use crate::file::replace;
+use crate::frame::PyFrame;
+use crate::interrupt;
+use crate::natural::{natural, natural_or_none};
+use crate::picture::{PyPicture, theme};
+use crate::script::script;
+use crate::table::{by_name, structured};
+use crate::verification::{PyDifference, PyVerification, verify};
+use crate::world::{PyWorld, os_error};
+
+/// A recorded run: a seed, worlds with their robots, inputs, and the frame of every tick of 0.05 s. `record` makes one,
+/// `read` reads one, and `Recorder.log` takes one of a run under way. The same seed, worlds and inputs give the same
+/// frames to the last bit on every machine.
+///
+/// A digest log has a digest of each second instead of the frames: it verifies, and has no states.
+#[pyclass(frozen, name = "Run", module = "motion_lab")]
+pub struct PyRun {
+    /// The library's log.
+    pub log: Arc<Log>,
+    digest: OnceLock<Option<Digest>>,
+}
+
+impl From<Log> for PyRun {
+    fn from(log: Log) -> Self {
+        PyRun { log: Arc::new(log), digest: OnceLock::new() }
+    }
+}
+
+/// The settings of a run as Python gives them, None for what is left out.
+pub struct Settings<'a, 'py> {
+    /// A world, a name or several of them.
+    pub worlds: Option<&'a Bound<'py, PyAny>>,
+    /// The number of ticks.
+    pub ticks: Option<&'a Bound<'py, PyAny>>,
+    /// The seed.
+    pub seed: Option<&'a Bound<'py, PyAny>>,
+    /// The inputs, as [`script`] reads them.
+    pub script: Option<&'a Bound<'py, PyAny>>,
+    /// The number of rays of a rover's sensor; 0 for none.
+    pub rays: Option<&'a Bound<'py, PyAny>>,
+    /// The sensor's reach, metres.
+    pub range: Option<f64>,
+}
+
+impl Settings<'_, '_> {
+    /// The configuration and the input of the run: the tour with what is given.
+    ///
+    /// # Errors
+    /// `WorldError` for a world that there is not, `RunError` for a script that is refused, `ValueError` for a number
+    /// that cannot be; the run itself checks all else.
+    pub fn read(self) -> PyResult<(TourConfig, RunInput)> {
+        let usual = TourConfig::default();
+        let worlds = match self.worlds.filter(|worlds| !worlds.is_none()) {
+            None => usual.worlds,
+            Some(one) if one.is_instance_of::<PyWorld>() || one.is_instance_of::<PyString>() => vec![world_of(one)?],
+            Some(several) => several.try_iter()?.map(|world| world_of(&world?)).collect::<PyResult<_>>()?,
+        };
+        let ticks = natural_or_none("ticks", self.ticks)?.unwrap_or(usual.ticks);
+        let rays = natural_or_none("rays", self.rays)?;
+        let sensor = match (rays, usual.sensor) {
+            (Some(0), _) | (None, None) => None,
+            (rays, usual) => {
+                let RangeSensor { n_rays, max_range } = usual.unwrap_or(RangeSensor { n_rays: 1, max_range: 1.0 });
+                // so many that the library refuses them
+                let n_rays = rays.map_or(n_rays, |rays| u32::try_from(rays).unwrap_or(u32::MAX));
+                Some(RangeSensor { n_rays, max_range: self.range.unwrap_or(max_range) })
+            }
+        };
+        let seed = natural_or_none("seed", self.seed)?.map_or(BOOK_SEED, Seed);
+        Ok((TourConfig { worlds, ticks, sensor }, (seed, script(self.script)?).into()))
+    }
+}
+
+fn world_of(given: &Bound<'_, PyAny>) -> PyResult<World> {
+    Ok((*PyWorld::of(given)?.get().world).clone())
+}
+
+/// Record a run: the 60 s tour of the three built-in worlds, or `worlds`, a `World`, the name of one or several of
+/// them, for `ticks` of 0.05 s, 1200. `seed`, 2005, is what its noise and its tours follow from.
+///
+/// `script` has the inputs: the text of a script, the path of its file, or a list of `(tick, name, input)`, as
+/// `(1, "Rusty", {"drive": (128, 0)})` or `(20, "Apartment", {"close": "the bath door"})`, with the inputs of
+/// `Recorder.input` and the changes of `Recorder.change`. What a robot or a world refuses at its tick is counted there
+/// and changes nothing.
+///
+/// Every rover has a range sensor of `rays` rays, 360, that reach `range` metres, 4; with 0 rays none. `frames` says whether every
+/// frame is kept, or a digest of each second; if left out, frames for at most 100 robots.
+///
+/// The digest is that of `motion-lab record` with the same settings. Raises RunError for a run that cannot start;
+/// Ctrl+C stops it within 0.1 s.
+#[pyfunction]
+#[pyo3(signature = (worlds = None, ticks = None, *, seed = None, script = None, rays = None, range = None, frames = None))]
+#[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+pub fn record(
+    py: Python<'_>,
+    worlds: Option<&Bound<'_, PyAny>>,
+    ticks: Option<&Bound<'_, PyAny>>,
+    seed: Option<&Bound<'_, PyAny>>,
+    script: Option<&Bound<'_, PyAny>>,
+    rays: Option<&Bound<'_, PyAny>>,
+    range: Option<f64>,
+    frames: Option<bool>,
+) -> PyResult<PyRun> {
+    let settings = Settings { worlds, ticks, seed, script, rays, range };
+    let (config, input) = settings.read()?;
+    let kind = match frames {
+        None => LogKind::usual(&config),
+        Some(true) => LogKind::Frames,
+        Some(false) => LogKind::Digests,
+    };
+    recorded(py, Recipe::new(config, input), kind)
+}
+
+/// The run of a recipe, tick by tick, until Ctrl+C.
+///
+/// # Errors
+/// `RunError` for one that cannot start, `KeyboardInterrupt`.
+pub fn recorded(py: Python<'_>, recipe: Recipe, kind: LogKind) -> PyResult<PyRun> {
+    let mut recorder = begin(py, &recipe)?.without_keyframes();
+    let recipe = Recipe { config: recorder.shared_config(), ..recipe };
+    let (ticks, robots) = (recipe.config.ticks, recorder.frame().robots.len());
+    let initial = recorder.frame().clone();
+    let mut run = RunDigest::new(&recipe, &initial);
+    let (start, mut frames, mut digests) = (run.lower_half(), Vec::new(), Vec::new());
+    interrupt::until(py, robots, || {
+        let now = recorder.frame().tick;
+        if now >= ticks {
+            return Some(());
+        }
+        let frame = recorder.step();
+        if kind == LogKind::Frames {
+            frames.push(frame.clone());
+        } else {
+            run.tick(frame);
+            if frame.tick == ticks || frame.tick.is_multiple_of(DIGEST_TICKS) {
+                digests.push(run.lower_half());
+            }
+        }
+        None
+    })?;
+    let recorded = match kind {
+        LogKind::Frames => Recorded::Frames { initial, frames },
+        LogKind::Digests => Recorded::Digests(SecondDigests { start, digests, ticks, whole: Some(run.digest()) }),
+    };
+    Ok(Log { recipe, recorded }.into())
+}
+
+/// A run at tick 0, whose script names only robots that there are.
+///
+/// # Errors
+/// `RunError` in the library's words.
+pub fn begin(py: Python<'_>, recipe: &Recipe) -> PyResult<Recorder> {
+    let robots = recipe.config.robot_names().count();
+    interrupt::once(py, robots, || Recorder::of(recipe))?.map_err(|error| RunError::new_err(error.to_string()))
+}
+
+/// Read a run from a log file, of `Run.write` or of `motion-lab record`.
+///
+/// Raises OSError for a file that cannot be read, and LogError for one that is no whole log: every byte is checked.
+#[pyfunction]
+pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<PyRun> {
+    let bytes = py.detach(|| std::fs::read(&path)).map_err(|error| os_error(&error, &path))?;
+    let log = py.detach(|| Log::read_mcap(&bytes));
+    let log = log.map_err(|error| LogError::new_err(format!("{}: {error}", path.display())))?;
+    Ok(log.log.into())
+}
+
+/// Whether a file is there that is no run log.
+fn is_other(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));
+    read.is_ok() && matches!(Log::read_mcap(&head), Err(LabLogError::NotALog | LabLogError::Export))
+}
+
+/// The number of the robot of this name.
+///
+/// # Errors
+/// `RunError` names the nearest one that there is.
+pub fn robot_of(config: &TourConfig, name: &str) -> PyResult<usize> {
+    let found = config.robot_names().position(|own| own == name);
+    found.ok_or_else(|| {
+        let near = hint(nearest(name, config.robot_names()));
+        RunError::new_err(format!("the run has no robot {name:?}{near}"))
+    })
+}
+
+/// The ranges of a robot's sensor in a frame.
+///
+/// # Errors
+/// `IndexError` for a sensor that it has not.
+pub fn ranges_of<'a>(frame: &'a Frame, id: usize, name: &str, sensor: u64) -> PyResult<&'a [f64]> {
+    let mut own = frame.scans.iter().filter(|scan| scan.robot as usize == id);
+    let count = own.clone().count();
+    let none = || PyIndexError::new_err(format!("{name} has {count} range sensors: there is no number {sensor}"));
+    let found = usize::try_from(sensor).ok().and_then(|sensor| own.nth(sensor));
+    found.map(|scan| &*scan.ranges).ok_or_else(none)
+}
+
+impl PyRun {
+    fn digest_of(&self, py: Python<'_>) -> Option<Digest> {
+        *self.digest.get_or_init(|| py.detach(|| self.log.digest()))
+    }
+
+    /// Checks that there are frames.
+    fn needs_frames(&self) -> PyResult<()> {
+        match self.log.kind() {
+            LogKind::Frames => Ok(()),
+            LogKind::Digests => Err(LogError::new_err(LabLogError::NoFrames.to_string())),
+        }
+    }
+
+    fn svg(&self, py: Python<'_>, tick: Option<u64>, theme_name: &str) -> PyResult<PyPicture> {
+        self.needs_frames()?;
+        let (tick, theme) = (tick.unwrap_or(self.log.ticks()), theme(theme_name)?);
+        let robots = self.log.recipe.config.robot_names().count();
+        let svg = interrupt::once(py, robots, || run_svg(&self.log, tick, theme, |_| {}))?;
+        svg.map(PyPicture::of).map_err(|error| RunError::new_err(error.to_string()))
+    }
+
+    fn bytes(&self, py: Python<'_>) -> PyResult<Vec<u8>> {
+        py.detach(|| {
+            let mut bytes = Vec::new();
+            self.log.write_mcap(&mut bytes).map(|()| bytes)
+        })
+        .map_err(|error| LogError::new_err(error.to_string()))
+    }
+}
+
+#[pymethods]
+impl PyRun {
+    /// The digest of the run, 32 hexadecimal digits, as `motion-lab record` prints it: equal digests mean runs that are
+    /// equal in every bit.
+    #[getter]
+    fn digest(&self, py: Python<'_>) -> Option<String> {
+        self.digest_of(py).map(|digest| digest.to_string())
+    }
+
+    /// The seed.
+    #[getter]
+    fn seed(&self) -> u64 {
+        self.log.recipe.seed.0
+    }
+
+    /// The number of recorded ticks of 0.05 s.
+    #[getter]
+    fn ticks(&self) -> u64 {
+        self.log.ticks()
+    }
+
+    /// The worlds as they were at the start.
+    #[getter]
+    fn worlds<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.log.recipe.config.worlds.iter().cloned().map(PyWorld::from).collect::<Vec<_>>())
+    }
+
+    /// The names of the robots, by id.
+    #[getter]
+    fn robots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.log.recipe.config.robot_names().collect::<Vec<_>>())
+    }
+
+    /// The inputs as the text of a script, which `record` and `motion-lab record --script` take.
+    #[getter]
+    fn script(&self) -> String {
+        self.log.recipe.script.to_ron()
+    }
+
+    /// Whether every frame is kept; a digest log has a digest of each second instead.
+    #[getter]
+    fn has_frames(&self) -> bool {
+        self.log.kind() == LogKind::Frames
+    }
+
+    /// The states of a robot: a structured array with a row for each tick from 0 on, `ticks + 1` of them.
+    ///
+    /// Its fields are `tick` and `time` (s), the coordinates by their names (`x`, `y`, m; `theta`, rad), what else its
+    /// kind has (`left_wheel`, `right_wheel`, rad), `channel0`, `channel1` of its driver, `manual`, `in_contact`,
+    /// `contacts`, `flash` and `refusals`: the columns of `motion-lab export --format csv` without their units. NaN is
+    /// a number that the robot has not, as the trailer's heading without a trailer.
+    ///
+    /// Raises RunError for a robot that there is not, LogError for a digest log.
+    fn states<'py>(&self, py: Python<'py>, robot: &str) -> PyResult<Bound<'py, PyAny>> {
+        self.needs_frames()?;
+        let id = robot_of(&self.log.recipe.config, robot)?;
+        let mut columns = py.detach(|| table_of_robot(&self.log, id));
+        columns.retain(|column| column.name != "id");
+        let rows = self.log.frames().len() + usize::from(self.log.initial().is_some());
+        structured(py, &columns, rows)
+    }
+
+    /// The scans of a robot's range sensor, metres, shape `(ticks + 1, rays)`, from tick 0 on; inf where nothing is
+    /// within reach. `sensor` is its number, from 0, of a robot with several: the
+    /// run's own sensor is the first.
+    ///
+    /// Raises RunError for a robot that there is not, IndexError for a sensor that it has not, LogError for a digest
+    /// log.
+    #[pyo3(signature = (robot, sensor = None))]
+    fn scans<'py>(
+        &self,
+        py: Python<'py>,
+        robot: &str,
+        sensor: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        self.needs_frames()?;
+        let id = robot_of(&self.log.recipe.config, robot)?;
+        let sensor = natural_or_none("sensor", sensor)?.unwrap_or(0);
+        let frames = || self.log.initial().into_iter().chain(self.log.frames());
+        let mut width = None;
+        let mut all = Vec::new();
+        for frame in frames() {
+            let ranges = ranges_of(frame, id, robot, sensor)?;
+            let rays = *width.get_or_insert_with(|| {
+                all.reserve(ranges.len() * (self.log.frames().len() + 1));
+                ranges.len()
+            });
+            if rays != ranges.len() {
+                let words = format!("tick {}: the scan has {} rays, those before {rays}", frame.tick, ranges.len());
+                return Err(LogError::new_err(words));
+            }
+            all.extend_from_slice(ranges);
+        }
+        let shape = [frames().count(), width.unwrap_or(0)];
+        Ok(all.into_pyarray(py).reshape(shape)?.into_any())
+    }
+
+    /// The frame after a tick, 0 for the start: the state of the whole run.
+    ///
+    /// Raises IndexError for a tick that there is not, LogError for a digest log.
+    fn frame(&self, tick: &Bound<'_, PyAny>) -> PyResult<PyFrame> {
+        self.needs_frames()?;
+        let tick = natural("tick", tick)?;
+        let last = self.log.ticks();
+        let none = || PyIndexError::new_err(format!("there is no tick {tick}: they are 0 to {last}"));
+        self.log.frame(tick).map(PyFrame::from).ok_or_else(none)
+    }
+
+    /// The table of `motion-lab export --format csv` as text: a row for each tick and robot. With `ranges` there is a
+    /// column for each ray too.
+    ///
+    /// Raises LogError for a digest log.
+    #[pyo3(signature = (*, ranges = false))]
+    fn to_csv(&self, py: Python<'_>, ranges: bool) -> PyResult<String> {
+        self.needs_frames()?;
+        let text = py.detach(|| {
+            let mut text = Vec::new();
+            write_csv(&self.log, ranges, &mut text).map(|()| text)
+        });
+        let text = text.map_err(|error| LogError::new_err(error.to_string()))?;
+        String::from_utf8(text).map_err(|error| LogError::new_err(error.to_string()))
+    }
+
+    /// The same table as a `pandas.DataFrame`, bit for bit. A cell without a value is NaN.
+    ///
+    /// Raises ImportError without pandas, LogError for a digest log.
+    #[pyo3(signature = (*, ranges = false))]
+    fn to_pandas<'py>(&self, py: Python<'py>, ranges: bool) -> PyResult<Bound<'py, PyAny>> {
+        self.needs_frames()?;
+        let pandas = py.import("pandas")?;
+        let columns = py.detach(|| table(&self.log, ranges));
+        pandas.call_method1("DataFrame", (by_name(py, columns)?,))
+    }
+
+    /// Write it as a log file, which `read` and `motion-lab` read. The same run gives the same bytes. An older log is
+    /// replaced; any other file only with `overwrite`.
+    ///
+    /// Raises FileExistsError for a file that is no log, OSError where the file cannot be written.
+    #[pyo3(signature = (path, *, overwrite = false))]
+    fn write(&self, py: Python<'_>, path: PathBuf, overwrite: bool) -> PyResult<()> {
+        if !overwrite && py.detach(|| is_other(&path)) {
+            let words = format!("{}: this file is no run log; overwrite=True replaces it", path.display());
+            return Err(PyFileExistsError::new_err(words));
+        }
+        replace(py, &path, &self.bytes(py)?)
+    }
+
+    /// Simulate it again, from its seed, its worlds and its script alone, and compare every bit.
+    ///
+    /// Raises RunError for a run that cannot start. A run that differs is no error: the answer says where. Ctrl+C stops
+    /// it within 0.1 s.
+    fn verify(&self, py: Python<'_>) -> PyResult<PyVerification> {
+        verify(py, &self.log)
+    }
+
+    /// Where another run differs from this one: settings, ticks, the first value.
+    ///
+    /// Raises LogError for digest logs.
+    fn diff(&self, py: Python<'_>, other: &Bound<'_, PyRun>) -> PyResult<PyDifference> {
+        let other = other.get();
+        self.needs_frames()?;
+        other.needs_frames()?;
+        Ok(py.detach(|| PyDifference::of(&self.log, &other.log)))
+    }
+
+    /// The figure of the run after a tick, by default the last: the ways of the robots, their contacts and where they
+    /// are, world by world. `theme` is `"light"` or `"dark"`.
+    ///
+    /// Raises RunError for a tick that there is not, LogError for a digest log.
+    #[pyo3(signature = (tick = None, *, theme = "light"))]
+    fn plot(&self, py: Python<'_>, tick: Option<&Bound<'_, PyAny>>, theme: &str) -> PyResult<PyPicture> {
+        self.svg(py, natural_or_none("tick", tick)?, theme)
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        if self.needs_frames().is_err() {
+            return Ok(None);
+        }
+        Ok(Some(self.svg(py, None, "light")?.svg().to_owned()))
+    }
+
+    fn _repr_html_(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        if self.needs_frames().is_err() {
+            return Ok(None);
+        }
+        self.svg(py, None, "light")?.html(py).map(Some)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        let worlds: Vec<&str> = self.log.recipe.config.worlds.iter().map(|world| &*world.name).collect();
+        let (seed, ticks, worlds) = (self.log.recipe.seed, self.log.ticks(), worlds.join(", "));
+        let digest = self.digest_of(py).map_or(String::new(), |digest| format!(", digest {digest}"));
+        format!("<Run of {ticks} ticks at seed {seed} in {worlds}{digest}>")
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other.cast::<PyRun>().is_ok_and(|other| *other.get().log == *self.log)
+    }
+
+    fn __hash__(&self, py: Python<'_>) -> u64 {
+        self.digest_of(py).map_or(0, |Digest(bits)| bits as u64)
+    }
+
+    /// The bytes of its log file.
+    fn __bytes__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        Ok(PyBytes::new(py, &self.bytes(py)?))
+    }
+
+    /// The run of a log file's bytes.
+    ///
+    /// Raises LogError for what is no whole log.
+    #[classmethod]
+    fn from_bytes(_class: &Bound<'_, PyType>, py: Python<'_>, data: &[u8]) -> PyResult<PyRun> {
+        let log = py.detach(|| Log::read_mcap(data)).map_err(|error| LogError::new_err(error.to_string()))?;
+        Ok(log.log.into())
+    }
+
+    /// What pickles hold: the bytes of its log file.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>,))> {
+        let py = slf.py();
+        Ok((slf.get_type().getattr("from_bytes")?, (PyBytes::new(py, &slf.get().bytes(py)?),)))
+    }
+}
