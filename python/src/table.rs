@@ -4,7 +4,7 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyDict, PyList};
 
-use motion_lab_sim::export::{Cells, Column};
+use motion_lab_sim::export::{LogCells, LogColumn};
 
 /// Bytes of a number in a structured array.
 const WORD: usize = 8;
@@ -12,7 +12,7 @@ const WORD: usize = 8;
 /// A field of a structured array.
 struct Field<'a> {
     name: &'a str,
-    cells: &'a Cells,
+    cells: &'a LogCells,
     /// Where it begins in a row, bytes.
     offset: usize,
 }
@@ -21,7 +21,7 @@ struct Field<'a> {
 ///
 /// # Errors
 /// Python's own, where it has no memory.
-pub fn structured<'py>(py: Python<'py>, columns: &[Column], rows: usize) -> PyResult<Bound<'py, PyAny>> {
+pub fn structured<'py>(py: Python<'py>, columns: &[LogColumn], rows: usize) -> PyResult<Bound<'py, PyAny>> {
     let (fields, width) = laid_out(columns);
     // a buffer of Python's own, which the array takes without a copy
     let buffer = PyByteArray::new_with(py, rows * width, |bytes| {
@@ -45,15 +45,15 @@ pub fn structured<'py>(py: Python<'py>, columns: &[Column], rows: usize) -> PyRe
 }
 
 /// The fields of these columns, numbers at whole words, and the bytes of a row.
-fn laid_out(columns: &[Column]) -> (Vec<Field<'_>>, usize) {
+fn laid_out(columns: &[LogColumn]) -> (Vec<Field<'_>>, usize) {
     let mut fields = Vec::new();
     let mut end = 0_usize;
-    for Column { name, cells } in columns {
-        let offset = if matches!(cells, Cells::Flags(_)) { end } else { end.next_multiple_of(WORD) };
+    for LogColumn { name, cells } in columns {
+        let offset = if matches!(cells, LogCells::Flags(_)) { end } else { end.next_multiple_of(WORD) };
         end = match cells {
-            Cells::Integers(_) | Cells::Numbers(_) => offset + WORD,
-            Cells::Flags(_) => offset + 1,
-            Cells::Names(_) => continue,
+            LogCells::Integers(_) | LogCells::Numbers(_) => offset + WORD,
+            LogCells::Flags(_) => offset + 1,
+            LogCells::Names(_) => continue,
         };
         fields.push(Field { name: without_unit(name), cells, offset });
     }
@@ -68,18 +68,18 @@ fn without_unit(name: &str) -> &str {
 impl Field<'_> {
     fn format(&self) -> &'static str {
         match self.cells {
-            Cells::Integers(_) => "=i8",
-            Cells::Numbers(_) => "=f8",
-            Cells::Flags(_) | Cells::Names(_) => "?",
+            LogCells::Integers(_) => "=i8",
+            LogCells::Numbers(_) => "=f8",
+            LogCells::Flags(_) | LogCells::Names(_) => "?",
         }
     }
 
     fn write<'b>(&self, places: impl Iterator<Item = &'b mut [u8]>) {
         match self.cells {
-            Cells::Integers(all) => places.zip(all).for_each(|(place, x)| put(place, &x.to_ne_bytes())),
-            Cells::Numbers(all) => places.zip(all).for_each(|(place, x)| put(place, &x.to_ne_bytes())),
-            Cells::Flags(all) => places.zip(all).for_each(|(place, x)| put(place, &[u8::from(*x)])),
-            Cells::Names(_) => {}
+            LogCells::Integers(all) => places.zip(all).for_each(|(place, x)| put(place, &x.to_ne_bytes())),
+            LogCells::Numbers(all) => places.zip(all).for_each(|(place, x)| put(place, &x.to_ne_bytes())),
+            LogCells::Flags(all) => places.zip(all).for_each(|(place, x)| put(place, &[u8::from(*x)])),
+            LogCells::Names(_) => {}
         }
     }
 }
@@ -92,14 +92,14 @@ fn put(place: &mut [u8], bytes: &[u8]) {
 ///
 /// # Errors
 /// Python's own, where it has no memory.
-pub fn by_name<'py>(py: Python<'py>, columns: Vec<Column>) -> PyResult<Bound<'py, PyDict>> {
+pub fn by_name<'py>(py: Python<'py>, columns: Vec<LogColumn>) -> PyResult<Bound<'py, PyDict>> {
     let table = PyDict::new(py);
-    for Column { name, cells } in columns {
+    for LogColumn { name, cells } in columns {
         match cells {
-            Cells::Integers(all) => table.set_item(name, all.into_pyarray(py))?,
-            Cells::Numbers(all) => table.set_item(name, all.into_pyarray(py))?,
-            Cells::Flags(all) => table.set_item(name, PyArray1::from_vec(py, all))?,
-            Cells::Names(all) => table.set_item(name, all)?,
+            LogCells::Integers(all) => table.set_item(name, all.into_pyarray(py))?,
+            LogCells::Numbers(all) => table.set_item(name, all.into_pyarray(py))?,
+            LogCells::Flags(all) => table.set_item(name, PyArray1::from_vec(py, all))?,
+            LogCells::Names(all) => table.set_item(name, all)?,
         }
     }
     Ok(table)

@@ -9,7 +9,7 @@ use super::sources::{CRATES, Graph, Source, files, root, sources};
 const LONGEST: usize = 400;
 
 /// Where the project's Rust stands.
-const FOLDERS: [&str; 5] = ["src", "crates", "tests", "benches", "examples"];
+const FOLDERS: [&str; 6] = ["src", "crates", "tests", "benches", "examples", "python/src"];
 
 /// Largest number of files in a room, without its own file and its tests.
 const LARGEST: usize = 15;

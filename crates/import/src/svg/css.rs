@@ -33,8 +33,8 @@ pub(crate) const PROPERTIES: [&str; 23] = [
 /// there.
 const MAX_PARTS: usize = 10;
 
-/// Greatest length of a value in a style sheet, bytes: a rule may hold for every element. What all of them take together
-/// is counted where they are matched.
+/// Greatest length of a value in a style sheet, bytes: a rule may hold for every element. What all of them take
+/// together is counted where they are matched.
 const MAX_VALUE: usize = 10_000;
 
 /// A rule of a style sheet, with the properties that matter.

@@ -1,10 +1,10 @@
 //! A read log in the forms that other programs read: JSON lines, CSV, and MCAP for viewers; and the CSV's [`table`] as
 //! columns.
 //!
-//! Each other function writes to any `std::io::Write`, and the same log gives the same bytes. In text, every number has the
-//! fewest digits that read back to the same bits; an infinite range is `inf`, in JSON as a text. Columns are called as
-//! the coordinates of the robots' kinds, with units. A log of which only the beginning was read is written as far as it
-//! has frames. Figures of a run are in [`capture`](crate::capture).
+//! Each other function writes to any `std::io::Write`, and the same log gives the same bytes. In text, every number has
+//! the fewest digits that read back to the same bits; an infinite range is `inf`, in JSON as a text. Columns are called
+//! as the coordinates of the robots' kinds, with units. A log of which only the beginning was read is written as far as
+//! it has frames. Figures of a run are in [`capture`](crate::capture).
 //!
 //! ```
 //! use motion_lab_sim::export;
@@ -34,4 +34,4 @@ pub use error::ExportError;
 pub use foxglove::{write_foxglove, write_foxglove_of_file, write_rerun, write_rerun_of_file};
 pub use json_number::{JsonNumber, json_seed, read_json_seed};
 pub use jsonl::{write_jsonl, write_jsonl_of_kinds};
-pub use table::{Cells, Column, table, table_of_robot};
+pub use table::{LogCells, LogColumn, table, table_of_robot};

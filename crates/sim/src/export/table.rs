@@ -7,16 +7,16 @@ use motion_lab_core::configuration::Kinds;
 
 /// A column of the table of a log.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column {
+pub struct LogColumn {
     /// Its name, with its unit: `x_m`, `contacts`.
     pub name: String,
     /// Its cells, row by row.
-    pub cells: Cells,
+    pub cells: LogCells,
 }
 
-/// The cells of a [`Column`].
+/// The cells of a [`LogColumn`].
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cells {
+pub enum LogCells {
     /// Ticks, ids, channels and counts.
     Integers(Vec<i64>),
     /// Metres, radians, seconds; NaN where a robot has no such number, which the CSV leaves empty.
@@ -31,16 +31,16 @@ pub enum Cells {
 /// id. A log of digests has no rows.
 ///
 /// ```
-/// use motion_lab_sim::export::{Cells, table};
+/// use motion_lab_sim::export::{LogCells, table};
 /// use motion_lab_sim::recording::Run;
 /// use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 ///
 /// let log = Run::record(TourConfig { ticks: 2, ..TourConfig::default() }, BOOK_SEED)?;
 /// let columns = table(&log, false);
-/// assert_eq!((&*columns[0].name, &columns[0].cells), ("tick", &Cells::Integers(vec![0, 0, 0, 1, 1, 1, 2, 2, 2])));
+/// assert_eq!((&*columns[0].name, &columns[0].cells), ("tick", &LogCells::Integers(vec![0, 0, 0, 1, 1, 1, 2, 2, 2])));
 /// # Ok::<(), motion_lab_sim::recording::RunError>(())
 /// ```
-pub fn table(log: &Log, ranges: bool) -> Vec<Column> {
+pub fn table(log: &Log, ranges: bool) -> Vec<LogColumn> {
     let head = TableHead::of(log, &Kinds::default(), ranges);
     let names: Vec<&str> = log.recipe.config.robot_names().collect();
     let mut table = GatheredTable::of(head.names());
@@ -55,7 +55,7 @@ pub fn table(log: &Log, ranges: bool) -> Vec<Column> {
 
 /// The rows of the robot of this id, and of the columns those that its kind has, without its ranges. Empty where the
 /// log has no such robot.
-pub fn table_of_robot(log: &Log, id: usize) -> Vec<Column> {
+pub fn table_of_robot(log: &Log, id: usize) -> Vec<LogColumn> {
     let head = TableHead::of(log, &Kinds::default(), false);
     let Some(name) = log.recipe.config.robot_names().nth(id) else { return Vec::new() };
     let mut table = GatheredTable::of(head.names());
@@ -68,7 +68,7 @@ pub fn table_of_robot(log: &Log, id: usize) -> Vec<Column> {
 }
 
 /// A cell of the table.
-pub(super) enum Cell<'a> {
+pub(super) enum LogCell<'a> {
     Integer(i64),
     Number(Option<f64>),
     Flag(bool),
@@ -135,7 +135,7 @@ impl TableHead {
         frame: &Frame,
         NamedRobot { number, name }: NamedRobot<'a>,
         robot: &RobotState,
-        mut take: impl FnMut(Cell<'a>),
+        mut take: impl FnMut(LogCell<'a>),
     ) {
         // taken apart by name, so that a field added later can't be forgotten here
         let RobotState {
@@ -152,20 +152,20 @@ impl TableHead {
         } = robot;
         let Frame { tick, .. } = frame;
         // no run has so many ticks that the sign would change
-        take(Cell::Integer(tick.cast_signed()));
-        take(Cell::Number(Some(*tick as f64 * DT)));
-        take(Cell::Integer(i64::from(*id)));
-        take(Cell::Name(name));
-        self.configuration.numbers(number, robot).for_each(|x| take(Cell::Number(x)));
-        self.extra.numbers(number, robot).for_each(|x| take(Cell::Number(x)));
-        channels.iter().for_each(|channel| take(Cell::Integer(i64::from(*channel))));
-        self.target.numbers(number, robot).for_each(|x| take(Cell::Number(x)));
-        [manual, in_contact].into_iter().for_each(|flag| take(Cell::Flag(*flag)));
-        [contacts, flash, refusals].into_iter().for_each(|count| take(Cell::Integer(i64::from(*count))));
+        take(LogCell::Integer(tick.cast_signed()));
+        take(LogCell::Number(Some(*tick as f64 * DT)));
+        take(LogCell::Integer(i64::from(*id)));
+        take(LogCell::Name(name));
+        self.configuration.numbers(number, robot).for_each(|x| take(LogCell::Number(x)));
+        self.extra.numbers(number, robot).for_each(|x| take(LogCell::Number(x)));
+        channels.iter().for_each(|channel| take(LogCell::Integer(i64::from(*channel))));
+        self.target.numbers(number, robot).for_each(|x| take(LogCell::Number(x)));
+        [manual, in_contact].into_iter().for_each(|flag| take(LogCell::Flag(*flag)));
+        [contacts, flash, refusals].into_iter().for_each(|count| take(LogCell::Integer(i64::from(*count))));
         let mut scans = frame.scans.iter().filter(|scan| scan.robot == *id);
         for width in &self.ranges {
             let ranges = scans.next().map_or(&[][..], |scan| &scan.ranges);
-            (0..*width).for_each(|i| take(Cell::Number(ranges.get(i).copied())));
+            (0..*width).for_each(|i| take(LogCell::Number(ranges.get(i).copied())));
         }
     }
 
@@ -177,7 +177,7 @@ impl TableHead {
 
 /// The columns while they are gathered.
 struct GatheredTable {
-    columns: Vec<Column>,
+    columns: Vec<LogColumn>,
     /// The number of the column that the next cell goes to.
     next: usize,
 }
@@ -185,7 +185,7 @@ struct GatheredTable {
 impl GatheredTable {
     fn of(names: Vec<String>) -> Self {
         // the first cell says what the others are
-        let column = |name| Column { name, cells: Cells::Numbers(Vec::new()) };
+        let column = |name| LogColumn { name, cells: LogCells::Numbers(Vec::new()) };
         GatheredTable { columns: names.into_iter().map(column).collect(), next: 0 }
     }
 
@@ -193,19 +193,19 @@ impl GatheredTable {
         self.next = 0;
     }
 
-    fn take(&mut self, cell: Cell<'_>) {
+    fn take(&mut self, cell: LogCell<'_>) {
         let Some(column) = self.columns.get_mut(self.next) else { return };
         self.next += 1;
         let cells = &mut column.cells;
         match (cell, &mut *cells) {
-            (Cell::Number(x), Cells::Numbers(all)) => all.push(x.unwrap_or(f64::NAN)),
-            (Cell::Integer(x), Cells::Integers(all)) => all.push(x),
-            (Cell::Flag(x), Cells::Flags(all)) => all.push(x),
-            (Cell::Name(x), Cells::Names(all)) => all.push(x.to_owned()),
-            (Cell::Number(x), _) => *cells = Cells::Numbers(vec![x.unwrap_or(f64::NAN)]),
-            (Cell::Integer(x), _) => *cells = Cells::Integers(vec![x]),
-            (Cell::Flag(x), _) => *cells = Cells::Flags(vec![x]),
-            (Cell::Name(x), _) => *cells = Cells::Names(vec![x.to_owned()]),
+            (LogCell::Number(x), LogCells::Numbers(all)) => all.push(x.unwrap_or(f64::NAN)),
+            (LogCell::Integer(x), LogCells::Integers(all)) => all.push(x),
+            (LogCell::Flag(x), LogCells::Flags(all)) => all.push(x),
+            (LogCell::Name(x), LogCells::Names(all)) => all.push(x.to_owned()),
+            (LogCell::Number(x), _) => *cells = LogCells::Numbers(vec![x.unwrap_or(f64::NAN)]),
+            (LogCell::Integer(x), _) => *cells = LogCells::Integers(vec![x]),
+            (LogCell::Flag(x), _) => *cells = LogCells::Flags(vec![x]),
+            (LogCell::Name(x), _) => *cells = LogCells::Names(vec![x.to_owned()]),
         }
     }
 }
@@ -219,13 +219,13 @@ mod tests {
     use motion_lab_core::random::Seed;
 
     /// A cell as the CSV has it.
-    fn printed(cells: &Cells, row: usize) -> String {
+    fn printed(cells: &LogCells, row: usize) -> String {
         match cells {
-            Cells::Integers(all) => all[row].to_string(),
-            Cells::Numbers(all) if all[row].is_nan() => String::new(),
-            Cells::Numbers(all) => format!("{:?}", all[row]),
-            Cells::Flags(all) => all[row].to_string(),
-            Cells::Names(all) => csv_cell(&all[row]),
+            LogCells::Integers(all) => all[row].to_string(),
+            LogCells::Numbers(all) if all[row].is_nan() => String::new(),
+            LogCells::Numbers(all) => format!("{:?}", all[row]),
+            LogCells::Flags(all) => all[row].to_string(),
+            LogCells::Names(all) => csv_cell(&all[row]),
         }
     }
 

@@ -48,7 +48,7 @@ const OBSERVATIONS: usize = SENSOR.n_rays as usize + 3;
 pub struct Fleet {
     config: Arc<TourConfig>,
     recorder: Recorder,
-    rovers: Vec<Rover>,
+    rovers: Vec<FleetRover>,
     outcomes: Vec<StepOutcome>,
     /// The seed of all its episodes.
     own: Seed,
@@ -56,7 +56,7 @@ pub struct Fleet {
     number: u64,
 }
 
-struct Rover {
+struct FleetRover {
     /// Its id in the run.
     id: usize,
     name: String,
@@ -151,7 +151,7 @@ impl Fleet {
         self.check_count("numbers in actions", actions.len(), ACTIONS)?;
         self.check_count("places for observations", observations.len(), OBSERVATIONS)?;
         let acting = || self.rovers.iter().zip(actions.chunks(ACTIONS)).enumerate();
-        let is_bad = |(rover, action): (&Rover, &[f32])| rover.end.is_none() && action.iter().any(|a| !a.is_finite());
+        let is_bad = |(rover, action): (&FleetRover, &[f32])| rover.end.is_none() && action.iter().any(|a| !a.is_finite());
         if let Some((i, _)) = acting().find(|(_, item)| is_bad(*item)) {
             return Err(EpisodesError::NotFinite(i));
         }
@@ -235,7 +235,7 @@ impl Fleet {
     }
 }
 
-impl Rover {
+impl FleetRover {
     /// A place on the route, 1 to 4 m away.
     fn draw_goal(&self, draws: &mut Stream) -> Point2 {
         let draw = |draws: &mut Stream| self.route.at(draws.uniform(0.0, self.route.length())).position();
@@ -252,12 +252,12 @@ impl Rover {
 }
 
 /// The rovers of a world that follow a route.
-fn rovers(world: &World) -> Vec<Rover> {
+fn rovers(world: &World) -> Vec<FleetRover> {
     let residents = world.robots.iter().enumerate().filter(|(_, robot)| robot.kind == RobotKind::RUSTY.name);
     let on_route = |(id, robot): (usize, &Resident)| {
         let route = world.routes.iter().find(|route| Some(&route.name) == robot.route.as_ref())?.path().ok()?;
         let (goal, before) = (Point2::origin(), Pose2::IDENTITY);
-        Some(Rover { id, name: robot.name.clone(), route, goal, before, end: None })
+        Some(FleetRover { id, name: robot.name.clone(), route, goal, before, end: None })
     };
     residents.filter_map(on_route).collect()
 }
