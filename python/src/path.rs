@@ -174,8 +174,8 @@ impl PyPath {
         }
     }
 
-    /// Play the path: the run in which the robot, of its own sizes and alone in the world, follows it from its start, by
-    /// inputs alone. A disc is played by a rover, which needs a `tube` to stay in.
+    /// Play the path: the run in which the robot, of its own sizes and alone in the world, follows it from its start,
+    /// by inputs alone. A disc is played by a rover, which needs a `tube` to stay in.
     ///
     /// Raises RunError for a path that cannot be played.
     fn play(&self, py: Python<'_>) -> PyResult<PyRun> {

@@ -5,7 +5,7 @@ use std::io;
 
 use super::ExportError;
 use super::every_frame::every_frame;
-use super::table::{Cell, NamedRobot, TableHead};
+use super::table::{LogCell, NamedRobot, TableHead};
 use crate::run::Log;
 use motion_lab_core::configuration::Kinds;
 
@@ -48,17 +48,17 @@ pub fn write_csv_of_kinds(log: &Log, kinds: &Kinds, ranges: bool, mut out: impl 
 }
 
 /// Adds a cell to a row, after a comma if it is not the first.
-fn print(cell: Cell<'_>, row: &mut String) {
+fn print(cell: LogCell<'_>, row: &mut String) {
     if !row.is_empty() {
         row.push(',');
     }
     // writing into a string can't fail
     let _ = match cell {
-        Cell::Integer(x) => write!(row, "{x}"),
-        Cell::Number(Some(x)) => write!(row, "{x:?}"),
-        Cell::Number(None) => Ok(()),
-        Cell::Flag(x) => write!(row, "{x}"),
-        Cell::Name(name) => row.write_str(name),
+        LogCell::Integer(x) => write!(row, "{x}"),
+        LogCell::Number(Some(x)) => write!(row, "{x:?}"),
+        LogCell::Number(None) => Ok(()),
+        LogCell::Flag(x) => write!(row, "{x}"),
+        LogCell::Name(name) => row.write_str(name),
     };
 }
 
@@ -100,7 +100,7 @@ mod tests {
     fn numbers_keep_every_bit_and_missing_ones_are_empty() {
         let mut row = String::new();
         let numbers = [Some(0.1 + 0.2), Some(-0.0), None, Some(f64::INFINITY), Some(5e-324)];
-        numbers.into_iter().for_each(|x| print(Cell::Number(x), &mut row));
+        numbers.into_iter().for_each(|x| print(LogCell::Number(x), &mut row));
         assert_eq!(row, "0.30000000000000004,-0.0,,inf,5e-324");
     }
 }

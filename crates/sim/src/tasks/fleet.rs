@@ -151,7 +151,8 @@ impl Fleet {
         self.check_count("numbers in actions", actions.len(), ACTIONS)?;
         self.check_count("places for observations", observations.len(), OBSERVATIONS)?;
         let acting = || self.rovers.iter().zip(actions.chunks(ACTIONS)).enumerate();
-        let is_bad = |(rover, action): (&FleetRover, &[f32])| rover.end.is_none() && action.iter().any(|a| !a.is_finite());
+        let is_bad =
+            |(rover, action): (&FleetRover, &[f32])| rover.end.is_none() && action.iter().any(|a| !a.is_finite());
         if let Some((i, _)) = acting().find(|(_, item)| is_bad(*item)) {
             return Err(EpisodesError::NotFinite(i));
         }
