@@ -17,7 +17,9 @@ def program() -> Path:
     for folder in folders:
         if (Path(folder) / name).is_file():
             return Path(folder) / name
-    raise FileNotFoundError(f"{name} is not beside this package: a wheel brings it, a package built from sources does not")
+    raise FileNotFoundError(
+        f"{name} is not beside this package: a wheel brings it, a package built from sources does not"
+    )
 
 
 if __name__ == "__main__":
