@@ -167,9 +167,13 @@ def test_ctrl_c_stops_a_call(name):
         except KeyboardInterrupt:
             print(time.monotonic() - pressed[0])
     """
-    ran = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], timeout=120, capture_output=True, text=True)
-    # 0.1 s on a machine of its own; others may be busy
-    assert float(ran.stdout) < 0.5, ran.stdout + ran.stderr
+
+    def stopped_after():
+        ran = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], timeout=120, capture_output=True, text=True)
+        return float(ran.stdout or "inf")
+
+    # a busy machine may be late once
+    assert any(stopped_after() < 0.1 for _ in range(3))
 
 
 def test_checkers_and_their_errors_are_pickled():
