@@ -14,9 +14,9 @@ use crate::errors::{Error, configuration_error};
 
 /// A proof that an edge is free: steps, each with a clearance that is proven along it.
 ///
-/// `Checker.certificate` makes one. `Certificate(checker, a, b, steps, margin=0.0)` is one from elsewhere, whose `steps`
-/// are `(n, 3)`: where each begins and ends on the edge, from 0 to 1, and the clearance it claims, metres. Nothing of it
-/// is believed: `verify` checks it.
+/// `Checker.certificate` makes one. `Certificate(checker, a, b, steps, margin=0.0)` is one from elsewhere, whose
+/// `steps` are `(n, 3)`: where each begins and ends on the edge, from 0 to 1, and the clearance it claims, metres.
+/// Nothing of it is believed: `verify` checks it.
 #[pyclass(frozen, name = "Certificate", module = "motion_lab")]
 pub struct PyCertificate {
     checker: Py<PyChecker>,
@@ -92,8 +92,8 @@ impl PyCertificate {
         })
     }
 
-    /// Check the proof by code that did not make it, against the distances of the scene. Returns where the proof ends: 1.0
-    /// when the whole edge is proven free.
+    /// Check the proof by code that did not make it, against the distances of the scene. Returns where the proof ends:
+    /// 1.0 when the whole edge is proven free.
     ///
     /// Raises Error, with the first step that fails, for a proof that proves not what it claims.
     fn verify(&self, py: Python<'_>) -> PyResult<f64> {

@@ -1,17 +1,15 @@
 //! Checkers: the questions about a robot in a world.
 
-use numpy::Element;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyType};
-use rayon::prelude::*;
 
-use motion_lab_core::collision::{Checker, Collision, EdgeVerdict, Rows, RowsError};
+use motion_lab_core::collision::{Checker, Collision};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::robots::{ConfigurationError, Hitch, Reach, Robot, Rusty, RustyDisc};
 
-use crate::answers::{Answers, each_chunk};
-use crate::arrays::{Given, ManyRows, OneRow, RowKind, along, rows_in};
+use crate::arrays::{Given, ManyRows, OneRow, RowKind, rows_in};
+use crate::batches::{both, numbered, of_pairs, of_rows, sweep_hits, sweeps};
 use crate::certificate::PyCertificate;
 use crate::errors::configuration_error;
 use crate::robot::{LabRobot, PyRobot};
@@ -86,62 +84,6 @@ pub fn configuration<R: Robot>(py: Python<'_>, robot: &R, name: &str, row: &OneR
         Ok(()) => Ok(q),
         Err(reason) => Err(configuration_error(py, name, &[], &reason.to_string())),
     }
-}
-
-/// Answers about all rows.
-fn of_rows<'py, R: Robot, T: Element + Send>(
-    py: Python<'py>,
-    checker: &Checker<R>,
-    q: &ManyRows<'py>,
-    out: Option<&Bound<'py, PyAny>>,
-    ask: impl Fn(&Rows<'_, R>, &mut [T]) -> Result<(), RowsError> + Send + Sync,
-) -> PyResult<Bound<'py, PyAny>> {
-    q.check(py, checker.robot())?;
-    let mut answers = Answers::<T>::new(py, out, q.leading(), &[q])?;
-    let (numbers, width) = (q.numbers()?, q.width());
-    let places = answers.places()?;
-    each_chunk(py, places.len(), |part| {
-        let rows = rows_in(checker.robot(), numbers, width, &part)?;
-        ask(&rows, places.get_mut(part).unwrap_or_default())
-    })?;
-    Ok(answers.into_object())
-}
-
-/// Answers about all pairs of rows; `ask` answers one of them.
-fn of_pairs<'py, R: Robot>(
-    py: Python<'py>,
-    checker: &Checker<R>,
-    (a, b): (ManyRows<'py>, ManyRows<'py>),
-    out: Option<&Bound<'py, PyAny>>,
-    ask: impl Fn(&Rows<'_, R>, &Rows<'_, R>, &mut [bool]) -> Result<(), RowsError> + Send + Sync,
-) -> PyResult<Bound<'py, PyAny>> {
-    let (a, b) = both(py, checker.robot(), a, b)?;
-    let mut answers = Answers::<bool>::new(py, out, a.leading(), &[&a, &b])?;
-    let (from, to, width) = (a.numbers()?, b.numbers()?, a.width());
-    let places = answers.places()?;
-    each_chunk(py, places.len(), |part| {
-        let from = rows_in(checker.robot(), from, width, &part)?;
-        let to = rows_in(checker.robot(), to, width, &part)?;
-        ask(&from, &to, places.get_mut(part).unwrap_or_default())
-    })?;
-    Ok(answers.into_object())
-}
-
-/// Both arguments, checked, along the axes that they share.
-fn both<'py, R: Robot>(
-    py: Python<'py>,
-    robot: &R,
-    a: ManyRows<'py>,
-    b: ManyRows<'py>,
-) -> PyResult<(ManyRows<'py>, ManyRows<'py>)> {
-    a.check(py, robot)?;
-    b.check(py, robot)?;
-    along(py, a, b)
-}
-
-/// Whether the sweep from one configuration to another hits.
-fn sweep_hits<R: Robot>(checker: &Checker<R>, a: &R::Configuration, b: &R::Configuration) -> bool {
-    checker.scene().swept(&checker.robot().footprint(a), &checker.robot().footprint(b))
 }
 
 impl PyChecker {
@@ -399,45 +341,6 @@ impl PyChecker {
     fn __getnewargs__(&self, py: Python<'_>) -> (Py<PyWorld>, Py<PyRobot>) {
         (self.world.clone_ref(py), self.robot.clone_ref(py))
     }
-}
-
-/// Every verdict, or the first reason why there is none.
-fn numbered(found: Vec<Result<EdgeVerdict, ConfigurationError>>, first: usize) -> Result<Vec<EdgeVerdict>, RowsError> {
-    let one = |(i, verdict): (usize, Result<EdgeVerdict, _>)| {
-        verdict.map_err(|reason| RowsError::Row { row: first + i, reason })
-    };
-    found.into_iter().enumerate().map(one).collect()
-}
-
-/// Sweeps from all rows to all rows.
-fn sweeps<'py, R: Robot>(
-    py: Python<'py>,
-    checker: &Checker<R>,
-    (a, b): (ManyRows<'py>, ManyRows<'py>),
-    out: Option<&Bound<'py, PyAny>>,
-) -> PyResult<Bound<'py, PyAny>> {
-    let (a, b) = both(py, checker.robot(), a, b)?;
-    let mut answers = Answers::<bool>::new(py, out, a.leading(), &[&a, &b])?;
-    let (from, to, width) = (a.numbers()?, b.numbers()?, a.width());
-    let places = answers.places()?;
-    let configuration = |numbers: &[f64], row: usize| {
-        R::Configuration::from_coordinates(numbers.get(row * width..(row + 1) * width).unwrap_or_default())
-    };
-    each_chunk(py, places.len(), |part| {
-        let first = part.start;
-        let one = |(i, place): (usize, &mut bool)| {
-            let ends = configuration(from, first + i).zip(configuration(to, first + i));
-            *place = ends.is_none_or(|(a, b)| sweep_hits(checker, &a, &b));
-        };
-        let places = places.get_mut(part).unwrap_or_default();
-        if places.len() > crate::answers::ALONE {
-            places.par_iter_mut().enumerate().for_each(one);
-        } else {
-            places.iter_mut().enumerate().for_each(one);
-        }
-        Ok(())
-    })?;
-    Ok(answers.into_object())
 }
 
 fn truth(py: Python<'_>, answer: bool) -> Bound<'_, PyAny> {

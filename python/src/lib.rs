@@ -4,6 +4,7 @@
 
 mod answers;
 mod arrays;
+mod batches;
 mod certificate;
 mod checker;
 mod drawing;

@@ -302,8 +302,8 @@ impl PyReach {
     }
 }
 
-/// Hitch, a car, whose configuration is the middle of its rear axle, `x`, `y`, metres, its heading `theta`, radians, and
-/// with a trailer the trailer's heading `psi`, radians.
+/// Hitch, a car, whose configuration is the middle of its rear axle, `x`, `y`, metres, its heading `theta`, radians,
+/// and with a trailer the trailer's heading `psi`, radians.
 ///
 /// Lengths are metres, angles radians; what is left out is the lab's Hitch's. `jackknife` is the greatest angle between
 /// the two headings, beyond which nothing is free; without one the hitch folds as far as it likes.

@@ -120,17 +120,17 @@ impl PyWorld {
     /// - `boxes`, `(n, 4)` or `(n, 2, 2)`: the least corner and the greatest, `min x, min y, max x, max y`;
     /// - `discs`, `(n, 3)`: centre and radius, `x, y, r`;
     /// - `polygons`, a list of arrays `(k, 2)`: simple polygons, convex or not, in either direction;
-    /// - `occupancy`, `(rows, columns)`, bool: cells of `resolution` metres, from the lower left corner `origin`; row 0
-    ///   is the lowest, so a picture wants `[::-1]`.
+    /// - `occupancy`, `(rows, columns)`, bool: cells of `resolution` metres, from the lower left corner `origin`, `(0,
+    ///   0)` if left out; row 0 is the lowest, so a picture wants `[::-1]`.
     ///
     /// The obstacles are named `segment 1`, `box 1`, `disc 1`, `polygon 1` and so on, in the order of the arrays; cells
-    /// become boxes, each of many cells, `cells 1` and so on. `bounds` is `(min x, min y, max x, max y)`, if left out the
-    /// box around all the shapes and cells. They are no obstacle.
+    /// become boxes, each of many cells, `cells 1` and so on. `bounds` is `(min x, min y, max x, max y)`, if left out
+    /// the box around all the shapes and cells. They are no obstacle.
     ///
     /// Raises WorldError for what no world may hold, as a disc without a radius, and says which one it is.
     #[staticmethod]
     #[pyo3(signature = (*, segments = None, boxes = None, discs = None, polygons = None, occupancy = None,
-        resolution = None, origin = (0.0, 0.0), bounds = None, name = "World"))]
+        resolution = None, origin = None, bounds = None, name = "World"))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
     fn from_shapes(
         py: Python<'_>,
@@ -140,7 +140,7 @@ impl PyWorld {
         polygons: Option<&Bound<'_, PyAny>>,
         occupancy: Option<&Bound<'_, PyAny>>,
         resolution: Option<f64>,
-        origin: (f64, f64),
+        origin: Option<(f64, f64)>,
         bounds: Option<(f64, f64, f64, f64)>,
         name: &str,
     ) -> PyResult<Self> {
@@ -158,7 +158,7 @@ impl PyWorld {
             shapes.polygons(polygons)?;
         }
         if let Some(occupancy) = occupancy {
-            shapes.occupancy(occupancy, resolution, origin)?;
+            shapes.occupancy(occupancy, resolution, origin.unwrap_or_default())?;
         }
         Ok(shapes.finish(py, name, bounds)?.into())
     }

@@ -1,9 +1,8 @@
 """Arrays of any layout: what is read is what the rows hold, whatever their dtype, order and strides."""
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 ROBOTS = {
     "disc": ("apartment", ml.Disc(), [0, 0], [12, 8]),
@@ -102,7 +101,9 @@ def test_answers_over_an_array_of_any_layout_are_those_of_its_rows(robot, layout
         same(getattr(checker, name)(LAYOUTS[layout](a), LAYOUTS[layout](b)), expected, dtype)
     for field, expected in zip(checker.witness(laid), zip(*rows(checker.witness, q), strict=True), strict=True):
         np.testing.assert_array_equal(field, expected)
-    for field, expected in zip(checker.edge(a, LAYOUTS[layout](b)), zip(*rows(checker.edge, a, b), strict=True), strict=True):
+    for field, expected in zip(
+        checker.edge(a, LAYOUTS[layout](b)), zip(*rows(checker.edge, a, b), strict=True), strict=True
+    ):
         np.testing.assert_array_equal(field, expected)
 
 
@@ -161,7 +162,13 @@ def test_no_rows_have_no_answers():
 
 @pytest.mark.parametrize(
     ("a", "b", "shape"),
-    [((7, 2), (2,), (7,)), ((2,), (7, 2), (7,)), ((7, 1, 2), (5, 2), (7, 5)), ((1, 2), (4, 3, 2), (4, 3)), ((0, 1, 2), (5, 2), (0, 5))],
+    [
+        ((7, 2), (2,), (7,)),
+        ((2,), (7, 2), (7,)),
+        ((7, 1, 2), (5, 2), (7, 5)),
+        ((1, 2), (4, 3, 2), (4, 3)),
+        ((0, 1, 2), (5, 2), (0, 5)),
+    ],
 )
 def test_two_arrays_broadcast_along_their_leading_axes_as_numpy_broadcasts(a, b, shape):
     checker, q = configurations("disc", 100)

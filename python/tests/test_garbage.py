@@ -4,10 +4,9 @@ import itertools
 import subprocess
 import sys
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 
 class Raises:
@@ -37,16 +36,20 @@ class Lies(list):
 
 
 GARBAGE = [
-    None, True, 0, -1, 1.5, float("nan"), float("inf"), 10**400, 2**63, -(2**63), 1j, "", "apartment", "\ud800", "\0", b"\xff", (), (1,),
-    (1, 2), (1, 2, 3), (1, 2, 3, 4), (1, 2, 3, 4, 5), [1, [2]], [[1, 2], [3]], ("a", "b"), (None, None), (1, 10**400), [[], []], {}, {1: 2}, {1, 2}, object(), type,
-    Raises(), Lies([1, 2, 3]), range(2), iter([1, 2]), lambda: 1, np, np.float64(1), np.zeros(()), np.zeros(0), np.zeros(2),
-    np.zeros((2, 0)), np.zeros((0, 2)), np.zeros((3, 2)), np.zeros((3, 3)), np.zeros((3, 4)), np.full((3, 2), np.nan), np.full((3, 3), 1e308),
-    np.full((3, 2), -1e308), np.full((2, 2), 5e-324), np.zeros((3, 2), object), np.zeros((3, 2), "U3"), np.zeros((3, 2), "f8,f8"), np.zeros((1,) * 30 + (2,)),
-    np.zeros((3, 2), bool), np.zeros((3, 2), complex), np.zeros((2, 2, 2, 3)), np.broadcast_to(0.0, (3, 2)), np.zeros((4, 2))[::-2], memoryview(b"12"),
-    np.ma.masked_array(np.zeros((3, 2))), ml.World("lot"), ml.World, ml.Disc(), ml.Disc, ml.FREE,
+    None, True, 0, -1, 1.5, float("nan"), float("inf"), 10**400, 2**63, -(2**63), 1j, "", "apartment", "\ud800", "\0",
+    b"\xff", (), (1,), (1, 2), (1, 2, 3), (1, 2, 3, 4), (1, 2, 3, 4, 5), [1, [2]], [[1, 2], [3]], ("a", "b"),
+    (None, None), (1, 10**400), [[], []], {}, {1: 2}, {1, 2}, object(), type, Raises(), Lies([1, 2, 3]), range(2),
+    iter([1, 2]), lambda: 1, np, np.float64(1), np.zeros(()), np.zeros(0), np.zeros(2), np.zeros((2, 0)),
+    np.zeros((0, 2)), np.zeros((3, 2)), np.zeros((3, 3)), np.zeros((3, 4)), np.full((3, 2), np.nan),
+    np.full((3, 3), 1e308), np.full((3, 2), -1e308), np.full((2, 2), 5e-324), np.zeros((3, 2), object),
+    np.zeros((3, 2), "U3"), np.zeros((3, 2), "f8,f8"), np.zeros((1,) * 30 + (2,)), np.zeros((3, 2), bool),
+    np.zeros((3, 2), complex), np.zeros((2, 2, 2, 3)), np.broadcast_to(0.0, (3, 2)), np.zeros((4, 2))[::-2],
+    memoryview(b"12"), np.ma.masked_array(np.zeros((3, 2))), ml.World("lot"), ml.World, ml.Disc(), ml.Disc, ml.FREE,
 ]  # fmt: skip
 
-CHECKERS = [ml.Checker("lot", robot) for robot in (ml.Disc(), ml.Rusty(), ml.Reach(), ml.Hitch(trailer=True, jackknife=1.0))]
+CHECKERS = [
+    ml.Checker("lot", robot) for robot in (ml.Disc(), ml.Rusty(), ml.Reach(), ml.Hitch(trailer=True, jackknife=1.0))
+]
 OF_ONE = {
     "World": ml.World,
     "World.read": ml.World.read,
@@ -66,7 +69,10 @@ OF_ONE = {
     "base": lambda base: ml.Reach(base=base),
     "steps": lambda steps: ml.Certificate(CHECKERS[0], (1, 2), (3, 4), steps).verify(),
     "margin": lambda margin: ml.Certificate(CHECKERS[0], (1, 2), (3, 4), [(0, 1, 0)], margin).verify(),
-    **{name: lambda x, name=name: ml.World.from_shapes(**{name: x}) for name in ["segments", "boxes", "discs", "polygons", "bounds", "occupancy", "name"]},
+    **{
+        name: lambda x, name=name: ml.World.from_shapes(**{name: x})
+        for name in ["segments", "boxes", "discs", "polygons", "bounds", "occupancy", "name"]
+    },
     "resolution": lambda x: ml.World.from_shapes(occupancy=np.ones((2, 2), bool), resolution=x),
     "origin": lambda x: ml.World.from_shapes(occupancy=np.ones((2, 2), bool), resolution=1, origin=x),
     "is equal": lambda x: (ml.World("lot") == x, ml.Disc() == x),

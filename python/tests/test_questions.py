@@ -3,10 +3,9 @@
 import math
 import pickle
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 # a wall along x = 3 from y = 0 to y = 3, and a disc of 1 m about (0, 0)
 WORLD = ml.World.from_shapes(segments=[(3, 0, 3, 3)], discs=[(0, 0, 1)], bounds=(-5, -5, 5, 5))
@@ -127,7 +126,7 @@ def test_a_certificate_is_verified_and_a_forged_one_is_not(disc):
 
 def test_a_scan_reads_the_way_to_the_walls():
     ranges = ml.scan(WORLD, [(2, 0.5, 0), (2, 0.5, math.pi / 2)], rays=4, range=4.0)
-    # ahead of (2, 0.5) the wall at x = 3, to the left and the right nothing, behind the disc, whose side is at x^2 + y^2 = 1
+    # ahead the wall at x = 3, to the left and the right nothing, behind the disc, whose side is at x^2 + y^2 = 1
     disc = 2 - math.sqrt(0.75)
     np.testing.assert_allclose(ranges, [(1, math.inf, disc, math.inf), (math.inf, disc, math.inf, 1)], atol=1e-12)
     assert (ml.scan(WORLD, (0.5, 0, 0), rays=5) == 0).all(), "inside the disc"
@@ -164,7 +163,9 @@ def test_a_checker_knows_its_coordinates():
 
 
 def test_a_checker_needs_a_world_and_a_robot():
-    with pytest.raises(TypeError, match=r"^a robot is a Disc, Rusty, Reach or Hitch, not the class Rusty: write Rusty\(\)$"):
+    with pytest.raises(
+        TypeError, match=r"^a robot is a Disc, Rusty, Reach or Hitch, not the class Rusty: write Rusty\(\)$"
+    ):
         ml.Checker("lot", ml.Rusty)
     with pytest.raises(TypeError, match="^a robot is a Disc, Rusty, Reach or Hitch, not str$"):
         ml.Checker("lot", "rusty")
@@ -178,7 +179,7 @@ def test_a_checker_needs_a_world_and_a_robot():
 
 def test_robots_have_the_librarys_sizes_and_refuse_what_it_refuses():
     world = ml.World.from_shapes(segments=[(100, -9, 100, 9)], bounds=(-5, -9, 105, 9))
-    # how far the robot reaches ahead of x = 0: Rusty's radius; a car of 3.9 m with 0.7 m behind its axle; two links of 1 m
+    # how far the robot reaches ahead of x = 0: a radius; a car of 3.9 m with 0.7 m behind its axle; two links of 1 m
     for robot, q, reach in [
         (ml.Disc(), (0, 0), 0.11),
         (ml.Rusty(), (0, 0, 1), 0.11),

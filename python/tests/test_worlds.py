@@ -3,17 +3,18 @@
 import copy
 import pickle
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 YARD = """World(version: 1, name: "Yard", bounds: (min: (0, 0), max: (8, 6)),
     walls: [(name: "the fence", points: [(0, 0), (8, 0), (8, 6)])],
     obstacles: [(name: "the tree", shape: Disc(center: (2, 3), radius: 0.4))],
-    doors: [(name: "the gate", hinge: (4, 0), end: (5, 0), open: false), (name: "the hatch", hinge: (6, 1), end: (7, 1), open: true)],
+    doors: [(name: "the gate", hinge: (4, 0), end: (5, 0), open: false),
+            (name: "the hatch", hinge: (6, 1), end: (7, 1), open: true)],
     places: [(name: "home", pose: (x: 3, y: 5.5, theta: "90deg"))],
-    robots: [(name: "Big", kind: "rusty", start: [3, 5.5, 0], disc: (radius: 0.25)), (name: "Arm", kind: "reach3", start: [1, 2, 3]),
+    robots: [(name: "Big", kind: "rusty", start: [3, 5.5, 0], disc: (radius: 0.25)),
+             (name: "Arm", kind: "reach3", start: [1, 2, 3]),
              (name: "Puck", kind: "x-puck", start: [1])])
 """
 
@@ -31,7 +32,9 @@ def test_a_name_that_no_world_has_is_refused_with_the_nearest_one():
     assert str(refused.value) == 'no world is named "Workbnech": did you mean "workbench"?'
     assert (refused.value.path, refused.value.line, refused.value.column) == (None, None, None)
     assert isinstance(refused.value, ValueError) and isinstance(refused.value, ml.Error)
-    with pytest.raises(ml.WorldError, match="the built-in ones are apartment, workbench, lot, and World.read reads a file"):
+    with pytest.raises(
+        ml.WorldError, match="the built-in ones are apartment, workbench, lot, and World.read reads a file"
+    ):
         ml.World("office")
 
 
@@ -54,14 +57,16 @@ def test_a_text_becomes_a_world_with_all_that_it_names():
 
 
 def test_the_witness_of_a_closed_door_is_the_door():
-    text = 'World(version: 1, name: "W", bounds: (min: (0, 0), max: (8, 6)), doors: [(name: "gate", hinge: (4, 0), end: (4, 5), open: false)])'
+    gate = '(name: "gate", hinge: (4, 0), end: (4, 5), open: false)'
+    text = f'World(version: 1, name: "W", bounds: (min: (0, 0), max: (8, 6)), doors: [{gate}])'
     world = ml.World.parse(text)
     witness = ml.Checker(world, ml.Disc()).witness((3.0, 2.0))
     assert world.obstacles[witness.obstacle].name == "gate"
 
 
 def test_what_is_wrong_in_a_text_is_told_by_line_and_column():
-    text = 'World(version: 1, name: "yard", bounds: (min: (0, 0), max: (4, 3)),\n    obstacles: [(name: "the tree", shape: Disc(center: (1, 1), radius: 0))])'
+    tree = '(name: "the tree", shape: Disc(center: (1, 1), radius: 0))'
+    text = f'World(version: 1, name: "yard", bounds: (min: (0, 0), max: (4, 3)),\n    obstacles: [{tree}])'
     with pytest.raises(ml.WorldError) as refused:
         ml.World.parse(text, name="yard.ron")
     error = refused.value
@@ -125,7 +130,9 @@ def test_arrays_become_obstacles_in_their_order():
     assert checker.intersects([(6.3, 7), (7.8, 7), (7.4, 1), (7.6, 1)]).tolist() == [True, False, True, False]
     assert ml.World.parse(str(world)) == world
     pairs = ml.World.from_shapes(segments=[[(0, 0), (5, 5)]], boxes=[[(0, 0), (1, 2)], [(3, 3), (4, 4)]])
-    assert [str(o.shapes[0].vertices) for o in pairs.obstacles] == [str(o.shapes[0].vertices) for o in world.obstacles[:3]]
+    assert [str(o.shapes[0].vertices) for o in pairs.obstacles] == [
+        str(o.shapes[0].vertices) for o in world.obstacles[:3]
+    ]
 
 
 def test_occupied_cells_become_boxes_that_cover_them_and_nothing_else():
@@ -146,7 +153,10 @@ def test_occupied_cells_become_boxes_that_cover_them_and_nothing_else():
     ("shapes", "words"),
     [
         ({"discs": [(0, 0, 1), (3, 3, 0)]}, "discs[1]: radius 0 m: it must be finite, from 0.001 to 10000 m"),
-        ({"discs": [(np.nan, 0, 1)]}, "discs[0]: point (NaN, 0): coordinates must be finite and at most 10000 m in size"),
+        (
+            {"discs": [(np.nan, 0, 1)]},
+            "discs[0]: point (NaN, 0): coordinates must be finite and at most 10000 m in size",
+        ),
         ({"segments": [(1, 1, 1, 1)]}, "segments[0]: from points[0] on: length 0 m: the smallest feature is 0.001 m"),
         ({"polygons": [[(0, 0), (1, 1), (0, 1), (1, 0)]]}, "polygons[0]: polygon: "),
         ({"polygons": [np.zeros((0, 2))]}, "polygons[0]: polygon: "),
@@ -172,11 +182,20 @@ def test_what_no_world_may_hold_is_refused_by_its_number(shapes, words):
         ({"polygons": [[0, 1]]}, "a polygon has shape (2,), not (n, 2): x, y"),
         ({}, "a world without a shape needs bounds"),
         ({"discs": []}, "a world without a shape needs bounds"),
-        ({"occupancy": [[1, 0]], "resolution": 1}, "occupancy is no array of bool: say which cells are occupied, as `grid > 0.5` does"),
-        ({"occupancy": np.ones((2, 2)), "resolution": 1}, "occupancy is no array of bool: say which cells are occupied, as `grid > 0.5` does"),
+        (
+            {"occupancy": [[1, 0]], "resolution": 1},
+            "occupancy is no array of bool: say which cells are occupied, as `grid > 0.5` does",
+        ),
+        (
+            {"occupancy": np.ones((2, 2)), "resolution": 1},
+            "occupancy is no array of bool: say which cells are occupied, as `grid > 0.5` does",
+        ),
         ({"occupancy": np.ones((2, 2), bool)}, "occupancy needs a resolution, the length of a cell's side in metres"),
         ({"occupancy": np.ones(4, bool), "resolution": 1}, "occupancy has shape (4,), not (rows, columns)"),
-        ({"occupancy": np.ones((0, 4), bool), "resolution": 1}, "occupancy has shape (0, 4): it has no cells, or too many"),
+        (
+            {"occupancy": np.ones((0, 4), bool), "resolution": 1},
+            "occupancy has shape (0, 4): it has no cells, or too many",
+        ),
     ],
 )
 def test_arrays_of_the_wrong_shape_are_refused_in_words(shapes, words):

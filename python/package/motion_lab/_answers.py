@@ -37,7 +37,7 @@ class Witness(NamedTuple):
     on_obstacle: Any
     """The point of the obstacle, metres; on contact the same as ``on_robot``, nan where there is no obstacle."""
     part: Any
-    """The number of the robot's part: an arm's link, 0 for a car and 1 for its trailer; -1 where there is no obstacle."""
+    """The number of the robot's part: an arm's link, 1 for a car's trailer; -1 where there is no obstacle."""
     obstacle: Any
     """The number of the obstacle in ``world.obstacles``; -1 where there is none."""
 
@@ -48,7 +48,7 @@ class Edge(NamedTuple):
     verdict: Any
     """``FREE``, ``HIT`` or ``UNRESOLVED``."""
     clearance: Any
-    """A proven lower bound of the clearance along the whole edge, metres: 0 unless it is free, inf without obstacles."""
+    """A proven lower bound of the clearance all along the edge, metres: 0 unless it is free, inf without obstacles."""
     free_until: Any
     """Everything before this parameter is proven free; 1 for a free edge."""
     contact_at: Any
@@ -56,6 +56,6 @@ class Edge(NamedTuple):
     part: Any
     """The number of the robot's part in contact there, or held by the limit; -1 where no contact is known."""
     obstacle: Any
-    """The number in ``world.obstacles`` of what it touches; -1 where no contact is known, and for the robot's own limit."""
+    """The number in ``world.obstacles`` of what it touches; -1 for its own limit, and where no contact is known."""
     gap: Any
     """How far the robot can still move after ``free_until`` in an unresolved edge, metres; 0 in any other."""
