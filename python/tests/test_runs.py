@@ -11,10 +11,9 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "tests" / "samples"
