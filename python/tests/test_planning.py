@@ -85,7 +85,9 @@ def test_a_car_s_path_says_what_drives_it():
     # a leg without steering goes straight on
     straight = path.controls[:, 1] == 0.0
     assert straight.any()
-    for a, b, (v, _, t) in zip(path.corners[:-1][straight], path.corners[1:][straight], path.controls[straight]):
+    for a, b, (v, _, t) in zip(
+        path.corners[:-1][straight], path.corners[1:][straight], path.controls[straight], strict=True
+    ):
         assert b[:2] == pytest.approx(a[:2] + v * t * np.array([math.cos(a[2]), math.sin(a[2])]), abs=1e-9)
 
 
