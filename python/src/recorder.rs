@@ -7,15 +7,16 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use motion_lab_sim::recording::Recorder;
-use motion_lab_sim::run::{Recipe, RobotState};
-use motion_lab_sim::tour::{ConfigError, MAX_TICKS};
+use motion_lab_sim::recording::{Recorder, RunError as LabRunError};
+use motion_lab_sim::run::{Log, Recipe, RobotState};
+use motion_lab_sim::tour::{ConfigError, MAX_TICKS, TourConfig};
 
 use crate::errors::RunError;
 use crate::frame::PyFrame;
 use crate::interrupt;
 use crate::natural::{natural, natural_or_none};
-use crate::run::{PyRun, Settings, begin, ranges_of, robot_of};
+use crate::recording::{Settings, begin};
+use crate::run::{PyRun, ranges_of, robot_of};
 use crate::script::{change_of, input_of};
 use crate::world::PyWorld;
 
@@ -183,7 +184,8 @@ impl PyRecorder {
         let mut run = self.now()?;
         let run = &mut *run;
         let robots = run.frame().robots.len();
-        interrupt::once(py, robots, || run.input(robot, input))?.map_err(|error| RunError::new_err(error.to_string()))
+        interrupt::once(py, robots, || run.input(robot, input).map_err(|error| error.to_string()))?
+            .map_err(RunError::new_err)
     }
 
     /// Change a world before the next tick:
@@ -200,7 +202,8 @@ impl PyRecorder {
         let mut run = self.now()?;
         let run = &mut *run;
         let robots = run.frame().robots.len();
-        interrupt::once(py, robots, || run.change(world, change))?.map_err(|error| RunError::new_err(error.to_string()))
+        interrupt::once(py, robots, || run.change(world, change).map_err(|error| error.to_string()))?
+            .map_err(RunError::new_err)
     }
 
     /// The configuration of a robot, metres and radians.
@@ -230,12 +233,29 @@ impl PyRecorder {
 
     /// The run up to here, with all its inputs; it verifies. The run is simulated anew for it, and stands where it
     /// stood.
+    ///
+    /// Ctrl+C stops it within 0.1 s.
     fn log(&self, py: Python<'_>) -> PyResult<PyRun> {
         let mut run = self.now()?;
         let run = &mut *run;
-        let robots = run.frame().robots.len();
-        let log = interrupt::once(py, robots, || run.log())?.map_err(|error| RunError::new_err(error.to_string()))?;
-        Ok(log.into())
+        let (ticks, robots) = (run.frame().tick, run.frame().robots.len());
+        let refused = |error: LabRunError| RunError::new_err(error.to_string());
+        let initial = interrupt::once(py, robots, || run.seek(0).cloned())?.map_err(refused)?;
+        let mut frames = Vec::new();
+        let gathered = interrupt::until(py, robots, || {
+            if run.frame().tick >= ticks {
+                return Some(());
+            }
+            frames.push(run.step().clone());
+            None
+        });
+        if let Err(stopped) = gathered {
+            interrupt::once(py, robots, || run.seek(ticks).map(|_| ()))?.map_err(refused)?;
+            return Err(stopped);
+        }
+        let config = TourConfig { ticks, ..run.config().clone() };
+        let recipe = Recipe::new(config, (run.transport().seed(), run.script().clone()));
+        Ok(Log::with_frames(recipe, initial, frames).into())
     }
 
     fn __repr__(&self) -> PyResult<String> {

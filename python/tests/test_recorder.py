@@ -1,12 +1,14 @@
 """Runs under way: driven, moved back and ahead, restored, logged."""
 
 import os
+import subprocess
+import sys
+import textwrap
 import threading
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 # of crates/sim/tests/pins: a run driven to tick 160, taken back to tick 100 and driven otherwise from there
 BRANCHED = "dc4f780846f1c187aae6465571f64912"
@@ -187,6 +189,29 @@ def test_a_call_meanwhile_is_refused_and_neither_waits_nor_breaks():
     live_thread.join()
     asking.join()
     assert refused == ["the run is at work in another call"] and live.tick == 20_000
+
+
+def test_control_c_stops_a_log_and_leaves_the_run_where_it_stood():
+    code = """
+        import os, signal, threading, time
+        import motion_lab as ml
+        live = ml.Recorder("workbench", rays=0)
+        live.step(300_000)
+        frame, pressed = live.frame, []
+        def press():
+            pressed.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+        threading.Timer(0.05, press).start()
+        try:
+            live.log()
+            print("not stopped")
+        except KeyboardInterrupt:
+            print(f"{time.monotonic() - pressed[0]:.3f} {live.tick} {live.frame == frame}")
+    """
+    command = [sys.executable, "-c", textwrap.dedent(code)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout.split()
+    # 0.1 s, and as much again on a busy machine
+    assert done[1:] == ["300000", "True"] and float(done[0]) < 0.2, done
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
