@@ -82,8 +82,8 @@ class Warehouse(pettingzoo.ParallelEnv[str, Floats, Floats]):  # type: ignore[mi
         Returns what each agent observes, earns, whether that ends its episode or cuts it off, and
         `{"is_success": ..}` of one that is done.
 
-        Raises ValueError for an action that is missing, of no agent, or of another shape or type, and `motion_lab.Error`
-        (a ValueError) for one that is not finite. Nothing has changed then.
+        Raises ValueError for an action that is missing, of no agent, or of another shape or type, and
+        `motion_lab.Error` (a ValueError) for one that is not finite. Nothing has changed then.
         """
         agents = self.agents
         if not agents:
