@@ -21,6 +21,7 @@ mod picture;
 mod planning;
 mod pool;
 mod recorder;
+mod recording;
 mod robot;
 mod run;
 mod scan;
@@ -74,7 +75,9 @@ mod _core {
     #[pymodule_export]
     use crate::recorder::PyRecorder;
     #[pymodule_export]
-    use crate::run::{PyRun, read, record};
+    use crate::recording::record;
+    #[pymodule_export]
+    use crate::run::{PyRun, read};
     #[pymodule_export]
     use crate::verification::{PyDifference, PyVerification};
 

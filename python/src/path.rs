@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyFileExistsError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
 
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::planning::Effort;
@@ -21,8 +21,9 @@ use motion_lab_sim::tour::TourConfig;
 use crate::errors::{Error, RunError};
 use crate::file::replace;
 use crate::picture::{PyPicture, theme};
+use crate::recording::recorded;
 use crate::robot::LabRobot;
-use crate::run::{PyRun, recorded};
+use crate::run::PyRun;
 
 /// The width of a picture, pixels.
 const WIDTH: u32 = 640;
@@ -161,6 +162,34 @@ impl PyPath {
             Ok(steps.into_pyarray(py).reshape([leg.steps.len(), 3])?.into_any())
         };
         self.legs.iter().map(of).collect()
+    }
+
+    /// What the planner has grown, the configurations of its tree or its road map and its edges: arrays `(n, d)`, metres
+    /// and radians, and `(m, 2)`, the numbers of the edges' ends.
+    #[getter]
+    fn growth<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
+        let (nodes, edges) = self.with(py, |attempt| attempt.growth());
+        let shape = [nodes.len(), self.robot.coordinates().len()];
+        let nodes: Vec<f64> = nodes.iter().flat_map(|node| self.own(node)).collect();
+        let nodes = nodes.into_pyarray(py).reshape(shape)?.into_any();
+        let ends: Vec<usize> = edges.iter().flatten().copied().collect();
+        Ok((nodes, ends.into_pyarray(py).reshape([edges.len(), 2])?.into_any()))
+    }
+
+    /// The same as a `networkx.Graph`: the nodes are numbers, each with its configuration `q`.
+    ///
+    /// Raises ImportError without networkx.
+    fn graph<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let graph = py.import("networkx")?.getattr("Graph")?.call0()?;
+        let (nodes, edges) = self.with(py, |attempt| attempt.growth());
+        for (number, node) in nodes.iter().enumerate() {
+            let about = PyDict::new(py);
+            about.set_item("q", PyTuple::new(py, self.own(node))?)?;
+            graph.call_method("add_node", (number,), Some(&about))?;
+        }
+        let edges: Vec<(usize, usize)> = edges.into_iter().map(|[a, b]| (a, b)).collect();
+        graph.call_method1("add_edges_from", (edges,))?;
+        Ok(graph)
     }
 
     /// Check the proofs of all legs once more, by code that did not make them. Returns the clearance proven along the

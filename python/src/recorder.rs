@@ -15,7 +15,8 @@ use crate::errors::RunError;
 use crate::frame::PyFrame;
 use crate::interrupt;
 use crate::natural::{natural, natural_or_none};
-use crate::run::{PyRun, Settings, begin, ranges_of, robot_of};
+use crate::recording::{Settings, begin};
+use crate::run::{PyRun, ranges_of, robot_of};
 use crate::script::{change_of, input_of};
 use crate::world::PyWorld;
 
@@ -183,7 +184,8 @@ impl PyRecorder {
         let mut run = self.now()?;
         let run = &mut *run;
         let robots = run.frame().robots.len();
-        interrupt::once(py, robots, || run.input(robot, input))?.map_err(|error| RunError::new_err(error.to_string()))
+        interrupt::once(py, robots, || run.input(robot, input).map_err(|error| error.to_string()))?
+            .map_err(RunError::new_err)
     }
 
     /// Change a world before the next tick:
@@ -200,7 +202,8 @@ impl PyRecorder {
         let mut run = self.now()?;
         let run = &mut *run;
         let robots = run.frame().robots.len();
-        interrupt::once(py, robots, || run.change(world, change))?.map_err(|error| RunError::new_err(error.to_string()))
+        interrupt::once(py, robots, || run.change(world, change).map_err(|error| error.to_string()))?
+            .map_err(RunError::new_err)
     }
 
     /// The configuration of a robot, metres and radians.

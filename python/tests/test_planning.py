@@ -3,10 +3,9 @@
 import json
 import math
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 # the chapter's question: the arm of the Workbench round the post
 POST = ((2.0, 0.0), (3.1, 0.0))
@@ -86,7 +85,9 @@ def test_a_car_s_path_says_what_drives_it():
     # a leg without steering goes straight on
     straight = path.controls[:, 1] == 0.0
     assert straight.any()
-    for a, b, (v, _, t) in zip(path.corners[:-1][straight], path.corners[1:][straight], path.controls[straight]):
+    for a, b, (v, _, t) in zip(
+        path.corners[:-1][straight], path.corners[1:][straight], path.controls[straight], strict=True
+    ):
         assert b[:2] == pytest.approx(a[:2] + v * t * np.array([math.cos(a[2]), math.sin(a[2])]), abs=1e-9)
 
 
@@ -184,6 +185,25 @@ def test_a_path_file_holds_the_legs_with_every_bit(tmp_path):
     assert mine.read_text() == "{}"
     path.write(mine, overwrite=True)
     assert json.loads(mine.read_text())["version"] == 1
+
+
+def test_what_was_grown_holds_the_path_and_is_a_graph_of_networkx(tmp_path):
+    path = round_the_post()
+    nodes, edges = path.growth
+    path.write(tmp_path / "path.json", growth=True)
+    file = json.loads((tmp_path / "path.json").read_text())["growth"]
+    assert (nodes.tolist(), edges.tolist()) == (file["nodes"], file["edges"]) and nodes.shape[1] == edges.shape[1] == 2
+    networkx = pytest.importorskip("networkx")
+    graph = path.graph()
+    assert isinstance(graph, networkx.Graph) and graph.number_of_nodes() == len(nodes)
+    assert [graph.nodes[i]["q"] for i in range(len(nodes))] == [tuple(node) for node in nodes.tolist()]
+    # two trees, which the path joins
+    assert {frozenset(edge) for edge in graph.edges} == {frozenset(edge) for edge in edges.tolist()}
+    parts = list(networkx.connected_components(graph))
+    at = {tuple(node): number for number, node in enumerate(nodes.tolist())}
+    assert len(parts) <= 2 and {POST[0], POST[1]} <= set(at)
+    rover = ml.plan("apartment", (1.5, 5.75, 1.0), (4.5, 2.0, 0.0), robot=ml.Rusty(), planner="visibility-graph")
+    assert rover.growth[0].shape[1] == 3 and not rover.growth[0][:, 2].any()
 
 
 def test_an_arm_plays_its_path_to_the_goal_without_a_contact():

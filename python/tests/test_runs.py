@@ -8,13 +8,13 @@ import os
 import pickle
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 from xml.etree import ElementTree
 
+import motion_lab as ml
 import numpy as np
 import pytest
-
-import motion_lab as ml
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "tests" / "samples"
@@ -223,6 +223,38 @@ def test_a_log_with_a_changed_byte_is_refused(tmp_path):
         ml.Run.from_bytes(bytes(data[: len(data) // 4]))
     with pytest.raises(ml.LogError, match="this is not a run log"):
         ml.read(SAMPLES / "eight.ron")
+
+
+def records(data):
+    """The records of an MCAP file, as docs/formats.md describes them: where each begins, its opcode, its content."""
+    at = 8
+    while at + 9 <= len(data) - 8:
+        length = int.from_bytes(data[at + 1 : at + 9], "little")
+        yield at, data[at], data[at + 9 : at + 9 + length]
+        at += 9 + length
+
+
+def test_a_log_that_was_forged_with_its_seals_is_read_and_differs(tmp_path):
+    xxhash = pytest.importorskip("xxhash")
+    run = ml.record(frames=False)
+    data = bytearray(bytes(run))
+    data_end, seal, digests = 0x0F, 0x80, 0x81
+    minute = [at for at, opcode, _ in records(bytes(data)) if opcode == digests][1]
+    # the record holds its last tick, then the digest of each second: forge that of the third
+    third = minute + 9 + 8 + 8 * 2
+    data[third] ^= 1
+    for at, opcode, content in records(bytes(data)):
+        if opcode == seal and at > third:
+            assert int.from_bytes(content[8:16], "little") == at
+            data[at + 9 + 16 : at + 9 + 32] = xxhash.xxh3_128_intdigest(bytes(data[:at])).to_bytes(16, "little")
+        if opcode == data_end:
+            data[at + 9 : at + 13] = zlib.crc32(data[:at]).to_bytes(4, "little")
+    (tmp_path / "forged.mcap").write_bytes(data)
+    forged = ml.read(tmp_path / "forged.mcap")
+    verification = forged.verify()
+    assert not verification and (verification.recorded, verification.identical) == (1200, 40)
+    assert verification.difference.startswith("second 3, ticks 41 to 60: the digest is ")
+    assert verification.digest == TOUR and "difference=" in repr(verification)
 
 
 def test_a_difference_says_settings_ticks_and_the_first_value(tour):
