@@ -1,5 +1,7 @@
 //! Scans: what a range sensor reads at many poses.
 
+use std::sync::Mutex;
+
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -13,6 +15,22 @@ use crate::answers::{ALONE, Answers, each_chunk};
 use crate::arrays::RowKind;
 use crate::errors::Error;
 use crate::world::PyWorld;
+
+/// The scanner of the last few scans: its rays' directions cost more than a scan. Nobody waits for it.
+static KEPT: Mutex<Option<Scanner>> = Mutex::new(None);
+
+/// The kept scanner if it is of this sensor, else a new one.
+fn taken(fan: FanSensor) -> Scanner {
+    let kept = KEPT.try_lock().ok().and_then(|mut kept| kept.take());
+    let is_same = |kept: &Scanner| *kept.sensor() == fan.sensor && kept.field_of_view() == fan.field_of_view;
+    kept.filter(is_same).unwrap_or_else(|| Scanner::new(fan))
+}
+
+fn keep(scanner: Scanner) {
+    if let Ok(mut kept) = KEPT.try_lock() {
+        *kept = Some(scanner);
+    }
+}
 
 /// The ranges of an exact range sensor at `poses`, `(..., 3)`, each `x`, `y`, metres, and a heading, radians: metres,
 /// `(..., rays)`, inf where nothing is within `range`, and 0 everywhere when the position is inside an obstacle or
@@ -66,9 +84,10 @@ pub fn scan<'py>(
         if part.len() > ALONE {
             poses.zip(places.par_chunks_exact_mut(n)).for_each_init(|| Scanner::new(fan), scan);
         } else {
-            let mut scanner = Scanner::new(fan);
+            let mut scanner = taken(fan);
             let poses = numbers.get(part.start * width..part.end * width).unwrap_or_default().chunks_exact(width);
             poses.zip(places.chunks_exact_mut(n)).for_each(|one| scan(&mut scanner, one));
+            keep(scanner);
         }
         Ok(())
     })?;

@@ -95,6 +95,7 @@ impl Shapes {
     }
 
     fn solid(&mut self, list: &str, stem: &str, i: usize, py: Python<'_>, shape: ShapeText) -> PyResult<()> {
+        py.check_signals()?;
         let name = self.world.numbered(stem);
         self.world.solid(name, shape).map_err(|problem| refused(py, list, i, &problem))
     }

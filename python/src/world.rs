@@ -33,15 +33,19 @@ const MAX_FILE: u64 = 32 << 20;
 ///
 /// Raises WorldError, which is a ValueError, for a name that no world has.
 #[pyclass(frozen, name = "World", module = "motion_lab")]
+#[derive(Clone)]
 pub struct PyWorld {
     /// The library's world.
     pub world: Arc<World>,
-    scene: OnceLock<Arc<Scene>>,
+    scene: Arc<OnceLock<Arc<Scene>>>,
 }
+
+/// The built-in worlds that were asked for, in the order of their names: a call that names one need not read it again.
+static BUILT_IN: [OnceLock<PyWorld>; 3] = [const { OnceLock::new() }; 3];
 
 impl From<World> for PyWorld {
     fn from(world: World) -> Self {
-        PyWorld { world: Arc::new(world), scene: OnceLock::new() }
+        PyWorld { world: Arc::new(world), scene: Arc::default() }
     }
 }
 
@@ -70,10 +74,15 @@ impl PyWorld {
 }
 
 fn named(py: Python<'_>, name: &str) -> PyResult<PyWorld> {
-    if let Some(world) = World::built_in(name) {
-        return Ok(world.into());
-    }
     let known = World::built_in_names();
+    let kept = known.iter().position(|known| *known == name).and_then(|i| BUILT_IN.get(i));
+    if let Some(world) = kept.and_then(OnceLock::get) {
+        return Ok(world.clone());
+    }
+    if let Some(world) = World::built_in(name) {
+        let world = PyWorld::from(world);
+        return Ok(kept.map_or(world.clone(), |kept| kept.get_or_init(|| world).clone()));
+    }
     let hint = match nearest(name, known) {
         Some(near) => format!("did you mean {near:?}?"),
         None => format!("the built-in ones are {}, and World.read reads a file", known.join(", ")),

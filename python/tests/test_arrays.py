@@ -45,6 +45,16 @@ class Subclass(np.ndarray):
     """An array that reads its items otherwise."""
 
 
+class Table:
+    """What other libraries' tables say of themselves: columns, in Fortran's order."""
+
+    def __init__(self, q):
+        self.columns = [column.copy() for column in q.T]
+
+    def __array__(self, dtype=None, copy=None):
+        return np.array(self.columns, dtype).T
+
+
 LAYOUTS = {
     "C": lambda q: q,
     "Fortran": np.asfortranarray,
@@ -60,6 +70,7 @@ LAYOUTS = {
     "subclass": lambda q: q.view(Subclass),
     "list of tuples": lambda q: [tuple(row) for row in q],
     "list of arrays": list,
+    "table of another library": Table,
     "field of a structured array": lambda q: np.array(
         [(1, row) for row in q], [("before", "i1"), ("q", "f8", q.shape[1:])]
     )["q"],

@@ -134,6 +134,10 @@ def test_a_scan_reads_the_way_to_the_walls():
     fan = ml.scan(WORLD, (2, 1, 0), rays=3, field_of_view=1.0)
     np.testing.assert_allclose(fan, [1 / math.cos(0.5), 1.0, 1 / math.cos(0.5)], atol=1e-12)
     np.testing.assert_array_equal(ml.scan(WORLD, (2, 1, 0), field_of_view=2 * math.pi), ml.scan(WORLD, (2, 1, 0)))
+    # a scan between two others of another sensor changes neither
+    np.testing.assert_array_equal(ml.scan(WORLD, (2, 1, 0), rays=3, field_of_view=1.0), fan)
+    assert ml.scan(WORLD, (2, 1, 0), rays=3, range=0.5, field_of_view=1.0).tolist() == [math.inf] * 3
+    np.testing.assert_array_equal(ml.scan(WORLD, (2, 1, 0), rays=3, field_of_view=1.0), fan)
     for wrong, words in [
         ({"rays": 0}, "0 rays: there must be 1 to 100000"),
         ({"rays": -5}, "-5 rays: there must be 1 to 100000"),
