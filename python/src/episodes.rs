@@ -15,8 +15,14 @@ use crate::errors::Error;
 use crate::pool;
 use crate::run::PyRun;
 
+/// The most episodes that go on together.
+const MOST: usize = 1 << 20;
+
 /// From this number of episodes on a step divides them among threads.
 const MANY: usize = 256;
+
+/// What the library refuses: a large value, so it is on the heap.
+pub type Refused = Box<EpisodesError>;
 
 /// The episodes of one of the tasks.
 enum AnyEpisodes {
@@ -48,30 +54,31 @@ impl AnyEpisodes {
                 return Err(Error::new_err(words));
             }
         };
-        made.map_err(refused)
+        made.map_err(|error| refused(Box::new(error)))
     }
 
     fn count(&self) -> usize {
         each_task!(self, episodes => episodes.len())
     }
 
-    fn observe(&self, observations: &mut [f32]) -> Result<(), EpisodesError> {
-        each_task!(self, episodes => episodes.observe(observations))
+    fn observe(&self, observations: &mut [f32]) -> Result<(), Refused> {
+        each_task!(self, episodes => episodes.observe(observations)).map_err(Box::new)
     }
 
-    fn step(&mut self, actions: &[f32], observations: &mut [f32]) -> Result<(), EpisodesError> {
-        each_task!(self, episodes => episodes.step(actions, observations).map(|_| ()))
+    fn step(&mut self, actions: &[f32], observations: &mut [f32]) -> Result<(), Refused> {
+        each_task!(self, episodes => episodes.step(actions, observations).map(|_| ())).map_err(Box::new)
     }
 
     fn outcomes(&self) -> &[StepOutcome] {
         each_task!(self, episodes => episodes.outcomes())
     }
 
-    fn begin(&mut self, index: usize, seed: Option<u64>) -> Result<(), EpisodesError> {
-        each_task!(self, episodes => match seed {
+    fn begin(&mut self, index: usize, seed: Option<u64>) -> Result<(), Refused> {
+        let begun = each_task!(self, episodes => match seed {
             Some(seed) => episodes.begin(index, Seed(seed)),
             None => episodes.begin_next(index),
-        })
+        });
+        begun.map_err(Box::new)
     }
 
     fn final_observation(&self, index: usize) -> Option<&[f32]> {
@@ -82,8 +89,8 @@ impl AnyEpisodes {
         each_task!(self, episodes => (index < episodes.len()).then(|| episodes.frame(index)))
     }
 
-    fn log(&self, index: usize) -> Result<Log, EpisodesError> {
-        each_task!(self, episodes => episodes.log(index))
+    fn log(&self, index: usize) -> Result<Log, Refused> {
+        each_task!(self, episodes => episodes.log(index)).map_err(Box::new)
     }
 }
 
@@ -92,7 +99,7 @@ impl AnyEpisodes {
 /// `task` is "RustyGoal", "HitchPark" or "ReachPost"; `count` says how many episodes go on together, and `autoreset`,
 /// "NextStep", "SameStep" or "Disabled", what follows the end of one. At first episode i has the seed i.
 ///
-/// Raises `Error` for a name that is none of these.
+/// Raises `Error` for a name that is none of these, and for more than 1,048,576 episodes.
 #[pyclass(name = "Episodes", module = "motion_lab._core")]
 pub struct PyEpisodes {
     episodes: AnyEpisodes,
@@ -119,6 +126,9 @@ impl PyEpisodes {
                 return Err(Error::new_err(words));
             }
         };
+        if count > MOST {
+            return Err(Error::new_err(format!("{count} episodes: at most {MOST} go on together")));
+        }
         // the first observations are made here, by all threads where there are many
         let episodes = pool::install(py, || AnyEpisodes::new(task, count, autoreset))??;
         Ok(PyEpisodes { episodes })
@@ -270,6 +280,6 @@ impl<'py> Outcomes<'py> {
 }
 
 /// The error with the library's words.
-pub fn refused(error: EpisodesError) -> PyErr {
+pub fn refused(error: Refused) -> PyErr {
     Error::new_err(error.to_string())
 }

@@ -29,7 +29,7 @@ impl PyFleet {
     #[pyo3(signature = (robots, warehouse, *, trailers = false))]
     fn new(py: Python<'_>, robots: usize, warehouse: u64, trailers: bool) -> PyResult<Self> {
         let settings = Warehouse { seed: Seed(warehouse), robots, trailers };
-        let fleet = pool::install(py, || Fleet::new(&settings, Seed(0)))?.map_err(refused)?;
+        let fleet = pool::install(py, || Fleet::new(&settings, Seed(0)).map_err(Box::new))?.map_err(refused)?;
         Ok(PyFleet { fleet })
     }
 
@@ -55,11 +55,11 @@ impl PyFleet {
     #[pyo3(signature = (seed))]
     fn begin(&mut self, py: Python<'_>, seed: Option<u64>) -> PyResult<()> {
         let fleet = &mut self.fleet;
-        let begun = pool::install(py, || match seed {
-            Some(seed) => fleet.begin(Seed(seed)),
-            None => fleet.begin_next(),
-        })?;
-        begun.map_err(refused)
+        let begin = || match seed {
+            Some(seed) => fleet.begin(Seed(seed)).map_err(Box::new),
+            None => fleet.begin_next().map_err(Box::new),
+        };
+        pool::install(py, begin)?.map_err(refused)
     }
 
     /// Write what all rovers observe now into a C-ordered float32 array of (rovers, observations).
@@ -68,7 +68,7 @@ impl PyFleet {
     fn observe(&self, py: Python<'_>, observations: &Bound<'_, PyAny>) -> PyResult<()> {
         let mut observations = written::<f32>("observations", observations)?;
         let (fleet, places) = (&self.fleet, observations.places()?);
-        pool::install(py, || fleet.observe(places))?.map_err(refused)
+        pool::install(py, || fleet.observe(places).map_err(Box::new))?.map_err(refused)
     }
 
     /// Act for a tick, 0.05 s; the arrays are as in `Episodes.step`, a row for each rover. What is said for rovers that
@@ -89,15 +89,15 @@ impl PyFleet {
         let mut outcomes = Outcomes::new(self.fleet.len(), rewards, terminated, truncated)?;
         let (given, places) = (actions.as_slice()?, observations.places()?);
         let fleet = &mut self.fleet;
-        match pool::install(py, || fleet.step(given, places).map(|_| ()))? {
-            Ok(()) => {}
+        let stepped = pool::install(py, || fleet.step(given, places).map(|_| ()).map_err(Box::new))?;
+        stepped.map_err(|error| match *error {
             // it is the name that the caller knows
-            Err(EpisodesError::NotFinite(index)) => {
+            EpisodesError::NotFinite(index) => {
                 let name = self.fleet.names().nth(index).unwrap_or_default();
-                return Err(Error::new_err(format!("the action of {name} is not finite")));
+                Error::new_err(format!("the action of {name} is not finite"))
             }
-            Err(error) => return Err(refused(error)),
-        }
+            _ => refused(error),
+        })?;
         outcomes.write(self.fleet.outcomes())
     }
 
@@ -110,7 +110,7 @@ impl PyFleet {
     /// The run so far, simulated anew: it can be written, and it verifies.
     fn episode(&mut self, py: Python<'_>) -> PyResult<PyRun> {
         let fleet = &mut self.fleet;
-        let log = pool::install(py, || fleet.log())?.map_err(refused)?;
+        let log = pool::install(py, || fleet.log().map_err(Box::new))?.map_err(refused)?;
         Ok(log.into())
     }
 }

@@ -71,6 +71,7 @@ def test_arrays_that_cannot_be_written_in_place_are_refused_by_name_and_nothing_
 def test_words_and_numbers_that_make_no_episodes_are_refused():
     for given, words in [
         (("Goal", 1, "NextStep"), 'no task is named "Goal": there are RustyGoal, HitchPark and ReachPost'),
+        (("RustyGoal", 2**62, "NextStep"), "4611686018427387904 episodes: at most 1048576 go on together"),
         (("RustyGoal", 1, "later"), 'autoreset "later": it is NextStep, SameStep or Disabled'),
     ]:
         with pytest.raises(ml.Error, match=words):

@@ -42,9 +42,15 @@ def test_it_changes_what_it_knows_and_writes_pictures_and_logs_that_verify(examp
     before, after = example.learn(3)
     assert before.shape == after.shape == (example.COUNT,) and np.abs(after - before).max() > 0.01
     assert np.array_equal(example.learn(3)[1], after), "the same draws give the same weights"
+    goals = []
     for name, weights in [("before", before), ("after", after)]:
         example.show(weights, example.HELD_OUT, name, tmp_path)
         run = ml.read(tmp_path / f"{name}.mcap")
         assert run.ticks > 0 and run.verify()
-        assert ElementTree.parse(tmp_path / f"{name}.svg").getroot().tag.endswith("svg")
+        svg = ElementTree.parse(tmp_path / f"{name}.svg").getroot()
+        way = svg.findall(".//{*}polyline")[0].get("points").split()
+        states = run.states("Rusty")
+        assert way == [f"{state['x']:.3f},{state['y']:.3f}" for state in states[1:]]
+        goals.append([circle.get("cx") for circle in svg.findall(".//{*}circle") if circle.get("r") == "0.25"])
+    assert goals[0] == goals[1] and len(goals[0]) == 1, "the same goal"
     assert (tmp_path / "before.mcap").read_bytes() != (tmp_path / "after.mcap").read_bytes()

@@ -58,7 +58,7 @@ _AUTORESET = {
 }
 
 
-def observation_space(task: str) -> spaces.Box:
+def observation_space(task: str) -> spaces.Box[np.float32]:
     """The space of one observation of a task."""
     if task not in _LIMITS:
         raise ValueError(f"no task is named {task!r}: there are {', '.join(_LIMITS)}")
@@ -67,7 +67,7 @@ def observation_space(task: str) -> spaces.Box:
     return spaces.Box(low, high, dtype=np.float32)
 
 
-def action_space() -> spaces.Box:
+def action_space() -> spaces.Box[np.float32]:
     """The space of one action of any task."""
     return spaces.Box(-1.0, 1.0, (2,), np.float32)
 
@@ -108,12 +108,12 @@ class Env(gym.Env[Floats, Floats]):
     With `copy=False` every step gives the same array, with other numbers in it.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 (so Gymnasium declares it)
+    metadata: dict[str, Any] = {"render_modes": []}
 
     def __init__(self, task: Task = "RustyGoal", *, copy: bool = True, render_mode: None = None) -> None:
         self.observation_space = observation_space(task)
         self.action_space = action_space()
-        self.render_mode = _no_render_mode(render_mode)
+        _check_render_mode(render_mode)
         self._episodes = Episodes(task, 1, "Disabled")
         self._begun = False
         self._copy = copy
@@ -194,7 +194,7 @@ class VectorEnv(gym.vector.VectorEnv[Floats, Floats, npt.NDArray[Any]]):
         self.single_action_space = action_space()
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self.render_mode = _no_render_mode(render_mode)
+        _check_render_mode(render_mode)
         self.autoreset_mode = mode
         self._episodes = Episodes(task, self.num_envs, _AUTORESET[mode])
         self._begun = False
@@ -233,7 +233,7 @@ class VectorEnv(gym.vector.VectorEnv[Floats, Floats, npt.NDArray[Any]]):
         given = as_actions(actions, (self.num_envs, 2))
         arrays = self._next_arrays()
         ended = self._episodes.step(given, *arrays.all())
-        return (*arrays.all(), self._info(arrays) if ended else {})  # type: ignore[return-value]
+        return (*arrays.all(), self._info(arrays) if ended else {})
 
     def episode(self, index: int) -> Run:
         """The run of a replica's present episode so far: it can be written, and it verifies.
@@ -295,7 +295,7 @@ class _Arrays:
         return self.observations, self.rewards, self.terminated, self.truncated
 
 
-def _no_render_mode(render_mode: None) -> None:
+def _check_render_mode(render_mode: None) -> None:
     if render_mode is not None:
         raise ValueError(f"render_mode {render_mode!r}: there is none; episode() gives the run, which has a picture")
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import pettingzoo
+import pettingzoo  # type: ignore[import-untyped]
 from gymnasium import spaces
 
 from ._core import Fleet, Run
@@ -17,7 +17,7 @@ __all__ = ["Warehouse"]
 Floats = npt.NDArray[np.float32]
 
 
-class Warehouse(pettingzoo.ParallelEnv[str, Floats, Floats]):
+class Warehouse(pettingzoo.ParallelEnv[str, Floats, Floats]):  # type: ignore[misc]
     """The rovers of a generated warehouse, each on its way to a goal of its own, in one run.
 
     They see each other and are in each other's way; arms and cars go about their tours. `robots`, 10 to 100,000, are
@@ -31,7 +31,7 @@ class Warehouse(pettingzoo.ParallelEnv[str, Floats, Floats]):
     `reset()` the next one; at first a seed is drawn.
     """
 
-    metadata: dict[str, Any] = {  # noqa: RUF012 (so PettingZoo declares it)
+    metadata: dict[str, Any] = {
         "name": "motion_lab_warehouse_v0",
         "render_modes": [],
         "is_parallelizable": True,
@@ -53,11 +53,11 @@ class Warehouse(pettingzoo.ParallelEnv[str, Floats, Floats]):
         self.action_spaces = {agent: action_space() for agent in self.possible_agents}
         self._begun = False
 
-    def observation_space(self, agent: str) -> spaces.Box:
+    def observation_space(self, agent: str) -> spaces.Box[np.float32]:
         """The space of what an agent observes."""
         return self.observation_spaces[agent]
 
-    def action_space(self, agent: str) -> spaces.Box:
+    def action_space(self, agent: str) -> spaces.Box[np.float32]:
         """The space of an agent's actions."""
         return self.action_spaces[agent]
 
@@ -82,8 +82,8 @@ class Warehouse(pettingzoo.ParallelEnv[str, Floats, Floats]):
         Returns what each agent observes, earns, whether that ends its episode or cuts it off, and
         `{"is_success": ..}` of one that is done.
 
-        Raises ValueError for an action that is missing, of no agent, or of another shape or type, and `motion_lab.Error`
-        (a ValueError) for one that is not finite. Nothing has changed then.
+        Raises ValueError for an action that is missing, of no agent, or of another shape or type, and
+        `motion_lab.Error` (a ValueError) for one that is not finite. Nothing has changed then.
         """
         agents = self.agents
         if not agents:

@@ -19,7 +19,7 @@ pub enum EpisodesError {
     Warehouse(#[from] WarehouseError),
     /// The run takes no more inputs.
     #[error(transparent)]
-    Command(#[from] CommandError),
+    Command(#[from] Box<CommandError>),
     /// Numbers that are not as many as there are places for.
     #[error("{numbers} {what}, but {right} are needed: {each} for each of {episodes} episodes")]
     Count {

@@ -163,7 +163,7 @@ impl Fleet {
             let input = if rover.end.is_some() { RobotInput::Drive(0, 0) } else { channels(&cut) };
             let is_held = frame.robots.get(rover.id).is_some_and(|state| holds(state, &input));
             if !is_held {
-                self.recorder.input(&rover.name, input)?;
+                self.recorder.input(&rover.name, input).map_err(Box::new)?;
             }
         }
         self.recorder.step();
