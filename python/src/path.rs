@@ -164,8 +164,8 @@ impl PyPath {
         self.legs.iter().map(of).collect()
     }
 
-    /// What the planner has grown, the configurations of its tree or its road map and its edges: arrays `(n, d)`, metres
-    /// and radians, and `(m, 2)`, the numbers of the edges' ends.
+    /// What the planner has grown, the configurations of its tree or its road map and its edges: arrays `(n, d)`,
+    /// metres and radians, and `(m, 2)`, the numbers of the edges' ends.
     #[getter]
     fn growth<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let (nodes, edges) = self.with(py, |attempt| attempt.growth());

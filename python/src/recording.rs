@@ -74,8 +74,8 @@ fn world_of(given: &Bound<'_, PyAny>) -> PyResult<World> {
 /// `Recorder.input` and the changes of `Recorder.change`. What a robot or a world refuses at its tick is counted there
 /// and changes nothing.
 ///
-/// Every rover has a range sensor of `rays` rays, 360, that reach `range` metres, 4; with 0 rays none. `frames` says whether every
-/// frame is kept, or a digest of each second; if left out, frames for at most 100 robots.
+/// Every rover has a range sensor of `rays` rays, 360, that reach `range` metres, 4; with 0 rays none. `frames` says
+/// whether every frame is kept, or a digest of each second; if left out, frames for at most 100 robots.
 ///
 /// The digest is that of `motion-lab record` with the same settings. Raises RunError for a run that cannot start;
 /// Ctrl+C stops it within 0.1 s.

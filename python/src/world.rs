@@ -12,7 +12,6 @@ use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 
 use motion_lab_core::collision::Scene;
 use motion_lab_core::geometry::Aabb;
-use motion_lab_core::names::nearest;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
 
@@ -79,15 +78,12 @@ fn named(py: Python<'_>, name: &str) -> PyResult<PyWorld> {
     if let Some(world) = kept.and_then(OnceLock::get) {
         return Ok(world.clone());
     }
-    if let Some(world) = World::built_in(name) {
-        let world = PyWorld::from(world);
-        return Ok(kept.map_or(world.clone(), |kept| kept.get_or_init(|| world).clone()));
-    }
-    let hint = match nearest(name, known) {
-        Some(near) => format!("did you mean {near:?}?"),
-        None => format!("the built-in ones are {}, and World.read reads a file", known.join(", ")),
-    };
-    Err(nowhere_in_a_world(py, format!("no world is named {name:?}: {hint}")))
+    let world = World::named(name).map_err(|unknown| {
+        let file = if unknown.meant().is_none() { ", and World.read reads a file" } else { "" };
+        nowhere_in_a_world(py, format!("{unknown}{file}"))
+    })?;
+    let world = PyWorld::from(world);
+    Ok(kept.map_or(world.clone(), |kept| kept.get_or_init(|| world).clone()))
 }
 
 #[pymethods]

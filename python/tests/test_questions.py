@@ -175,7 +175,7 @@ def test_a_checker_needs_a_world_and_a_robot():
         ml.Checker("lot", "rusty")
     with pytest.raises(TypeError, match="^a world is a World or the name of one, not int$"):
         ml.Checker(3, ml.Rusty())
-    with pytest.raises(ml.WorldError, match='^no world is named "apartmnt": did you mean "apartment"\\?$'):
+    with pytest.raises(ml.WorldError, match='^no built-in world is named "apartmnt"; did you mean "apartment"\\?$'):
         ml.Checker("apartmnt", ml.Rusty())
     with pytest.raises(ValueError, match="^a is an array of more than one axis$"):
         ml.Checker("lot", ml.Disc()).certificate([(0, 0)], (1, 1))
