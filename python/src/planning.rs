@@ -39,8 +39,8 @@ pub fn planner_names() -> Vec<&'static str> {
 /// a `Checker` it takes a `World` or the name of one, and a `robot`.
 ///
 /// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. `seed`, 2005, is what
-/// its samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its path
-/// is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its goal.
+/// its samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its
+/// path is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its goal.
 ///
 /// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
 /// samples, if start and goal have it, else 0. `budget` is the greatest number of iterations, 100,000 if left out
@@ -50,7 +50,8 @@ pub fn planner_names() -> Vec<&'static str> {
 /// Raises NoPath, which says why there is none; ConfigurationError for ends that are none of the robot's
 /// configurations. Ctrl+C stops it within 0.1 s.
 #[pyfunction]
-#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None, budget = None, tube = 0.0))]
+#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None,
+    budget = None, tube = 0.0))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub fn plan(
     py: Python<'_>,
