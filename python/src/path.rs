@@ -164,8 +164,8 @@ impl PyPath {
         self.legs.iter().map(of).collect()
     }
 
-    /// What the planner has grown, the configurations of its tree or its road map and its edges: arrays `(n, d)`,
-    /// metres and radians, and `(m, 2)`, the numbers of the edges' ends.
+    /// What the planner has grown, the configurations of its tree or road map and its edges: arrays `(n, d)`, metres
+    /// and radians, and `(m, 2)`, the numbers of the edges' ends.
     #[getter]
     fn growth<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
         let (nodes, edges) = self.with(py, |attempt| attempt.growth());
@@ -203,8 +203,8 @@ impl PyPath {
         }
     }
 
-    /// Play the path: the run in which the robot, of its own sizes and alone in the world, follows it from its start,
-    /// by inputs alone. A disc is played by a rover, which needs a `tube` to stay in.
+    /// Play the path: the run in which the robot, of its own sizes and alone in the world, follows it from its start by
+    /// inputs alone. A disc is played by a rover, which needs a `tube` to stay in.
     ///
     /// Raises RunError for a path that cannot be played.
     fn play(&self, py: Python<'_>) -> PyResult<PyRun> {

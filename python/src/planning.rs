@@ -50,7 +50,8 @@ pub fn planner_names() -> Vec<&'static str> {
 /// Raises NoPath, which says why there is none; ConfigurationError for ends that are none of the robot's
 /// configurations. Ctrl+C stops it within 0.1 s.
 #[pyfunction]
-#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None, budget = None, tube = 0.0))]
+#[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None,
+    budget = None, tube = 0.0))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub fn plan(
     py: Python<'_>,

@@ -70,7 +70,7 @@ fn world_of(given: &Bound<'_, PyAny>) -> PyResult<World> {
 /// them, for `ticks` of 0.05 s, 1200. `seed`, 2005, is what its noise and its tours follow from.
 ///
 /// `script` has the inputs: the text of a script, the path of its file, or a list of `(tick, name, input)`, as
-/// `(1, "Rusty", {"drive": (128, 0)})` or `(20, "Apartment", {"close": "the bath door"})`, with the inputs of
+/// `(1, "Rusty", {"drive": (128, 0)})` or `(20, "Apartment", {"close": "door A"})`, with the inputs of
 /// `Recorder.input` and the changes of `Recorder.change`. What a robot or a world refuses at its tick is counted there
 /// and changes nothing.
 ///
@@ -80,7 +80,8 @@ fn world_of(given: &Bound<'_, PyAny>) -> PyResult<World> {
 /// The digest is that of `motion-lab record` with the same settings. Raises RunError for a run that cannot start;
 /// Ctrl+C stops it within 0.1 s.
 #[pyfunction]
-#[pyo3(signature = (worlds = None, ticks = None, *, seed = None, script = None, rays = None, range = None, frames = None))]
+#[pyo3(signature = (worlds = None, ticks = None, *, seed = None, script = None, rays = None, range = None,
+    frames = None))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub fn record(
     py: Python<'_>,

@@ -53,7 +53,7 @@ fn a_free_path_has_the_clearance_that_the_checker_proves_of_its_legs() {
         checker.edge_certified(&Tn(ends[0]), &Tn(ends[1]), &mut proof).unwrap();
         proof.clearance()
     };
-    let least = corners.windows(2).map(clearance).fold(f64::INFINITY, f64::min);
+    let least = corners.windows(2).map(clearance).fold(f64::INFINITY, motion_lab_core::num::lesser);
     assert!(proof > 0.0 && (proof - least).abs() < 1e-9, "{proof} {least}");
 }
 
