@@ -4,8 +4,8 @@
 
 Every generation tries 512 changes of the network's weights and their opposites, each for 300 ticks in an episode of its
 own, and moves the weights toward the changes that earned more (Salimans et al., 2017, "Evolution strategies as a
-scalable alternative to reinforcement learning"). One call steps all 1,024 rovers. A hundred generations take less than
-three minutes on two cores; before them the network reaches none of the goals, after them nearly half.
+scalable alternative to reinforcement learning"). One call steps all 1,024 rovers. A hundred generations take
+about 160 s of CPU time; before them the network reaches none of the goals, after them nearly half.
 
 Afterwards the network is asked about 256 episodes that it never saw. One whose goal it reaches now and did not reach
 before is written twice, as a picture (`before.svg`, `after.svg`) and as a log that verifies: `motion-lab verify

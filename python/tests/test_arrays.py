@@ -1,8 +1,9 @@
 """Arrays of any layout: what is read is what the rows hold, whatever their dtype, order and strides."""
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 ROBOTS = {
     "disc": ("apartment", ml.Disc(), [0, 0], [12, 8]),

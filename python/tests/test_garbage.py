@@ -4,9 +4,10 @@ import itertools
 import subprocess
 import sys
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 
 class Raises:

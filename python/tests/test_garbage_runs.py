@@ -1,8 +1,9 @@
 """Runs and plans given anything: an answer, or an exception of Python."""
 
-import motion_lab as ml
 import pytest
 from test_garbage import GARBAGE
+
+import motion_lab as ml
 
 RUN = ml.record(ticks=3, rays=4)
 DIGESTS = ml.record(ticks=3, rays=4, frames=False)

@@ -3,9 +3,10 @@
 import subprocess
 import sys
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 
 def test_a_world_shows_itself_in_a_notebook():

@@ -3,9 +3,10 @@
 import json
 import math
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 # the chapter's question: the arm of the Workbench round the post
 POST = ((2.0, 0.0), (3.1, 0.0))

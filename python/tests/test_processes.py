@@ -11,9 +11,10 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 N = 3000
 

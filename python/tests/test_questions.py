@@ -3,9 +3,10 @@
 import math
 import pickle
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 # a wall along x = 3 from y = 0 to y = 3, and a disc of 1 m about (0, 0)
 WORLD = ml.World.from_shapes(segments=[(3, 0, 3, 3)], discs=[(0, 0, 1)], bounds=(-5, -5, 5, 5))

@@ -6,9 +6,10 @@ import sys
 import textwrap
 import threading
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 # of crates/sim/tests/pins: a run driven to tick 160, taken back to tick 100 and driven otherwise from there
 BRANCHED = "dc4f780846f1c187aae6465571f64912"

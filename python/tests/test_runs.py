@@ -12,9 +12,10 @@ import zlib
 from pathlib import Path
 from xml.etree import ElementTree
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 ROOT = Path(__file__).parents[2]
 SAMPLES = ROOT / "tests" / "samples"
@@ -308,7 +309,11 @@ def test_a_picture_is_an_svg_that_notebooks_show(tour, tmp_path):
 
 def test_what_no_run_may_have_is_refused_with_the_reason():
     refused = [
-        (lambda: ml.record("apartmnt"), ml.WorldError, 'no built-in world is named "apartmnt"; did you mean "apartment"'),
+        (
+            lambda: ml.record("apartmnt"),
+            ml.WorldError,
+            'no built-in world is named "apartmnt"; did you mean "apartment"',
+        ),
         (lambda: ml.record([]), ml.RunError, "0 worlds: there must be 1 to 1000"),
         (lambda: ml.record(["lot", "lot"]), ml.RunError, 'two robots are named "Hitch"'),
         (lambda: ml.record(3), TypeError, "'int' object is not iterable"),

@@ -3,9 +3,10 @@
 import copy
 import pickle
 
-import motion_lab as ml
 import numpy as np
 import pytest
+
+import motion_lab as ml
 
 YARD = """World(version: 1, name: "Yard", bounds: (min: (0, 0), max: (8, 6)),
     walls: [(name: "the fence", points: [(0, 0), (8, 0), (8, 6)])],
