@@ -12,11 +12,11 @@ def program() -> Path:
     Raises FileNotFoundError where the package was built without it, as from its sources alone.
     """
     name = "motion-lab" + (sysconfig.get_config_var("EXE") or "")
-    user = sysconfig.get_path("scripts", sysconfig.get_preferred_scheme("user"))
-    folders = [sysconfig.get_path("scripts"), user, Path(__file__).parents[1] / "bin", Path(sys.executable).parent]
-    for folder in folders:
-        if (Path(folder) / name).is_file():
-            return Path(folder) / name
+    schemes = [sysconfig.get_default_scheme(), sysconfig.get_preferred_scheme("user")]
+    folders = [Path(sysconfig.get_path("scripts", scheme)) for scheme in schemes]
+    for folder in [*folders, Path(__file__).parents[1] / "bin", Path(sys.executable).parent]:
+        if (folder / name).is_file():
+            return folder / name
     raise FileNotFoundError(
         f"{name} is not beside this package: a wheel brings it, a package built from sources does not"
     )
