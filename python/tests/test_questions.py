@@ -182,7 +182,7 @@ def test_a_checker_needs_a_world_and_a_robot():
         ml.Checker("lot", ml.Disc()).certificate([(0, 0)], (1, 1))
 
 
-def test_robots_have_the_librarys_sizes_and_refuse_what_it_refuses():
+def test_robots_have_the_sizes_of_the_library_and_refuse_what_it_refuses():
     world = ml.World.from_shapes(segments=[(100, -9, 100, 9)], bounds=(-5, -9, 105, 9))
     # how far the robot reaches ahead of x = 0: a radius; a car of 3.9 m with 0.7 m behind its axle; two links of 1 m
     for robot, q, reach in [

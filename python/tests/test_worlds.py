@@ -106,7 +106,7 @@ def test_files_that_cannot_be_read_are_refused_as_python_refuses_them(tmp_path):
     with pytest.raises(ml.WorldError, match=f"a world file has at most {32 << 20} bytes$"):
         ml.World.read(large)
     broken = tmp_path / "broken.ron"
-    broken.write_text("World(\n  version: 1,\n  nam")
+    broken.write_text("World(\n  version: 1,\n  name")
     with pytest.raises(ml.WorldError) as refused:
         ml.World.read(broken)
     assert (refused.value.path, refused.value.line) == (str(broken), 3)
