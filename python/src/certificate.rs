@@ -11,6 +11,7 @@ use motion_lab_core::robots::{ConfigurationError, Robot};
 use crate::arrays::{OneRow, numbers_of, shape_text};
 use crate::checker::{PyChecker, configuration, with_checker};
 use crate::errors::{Error, configuration_error};
+use crate::natural::counted;
 
 /// A proof that an edge is free: steps, each with a clearance that is proven along it.
 ///
@@ -70,6 +71,9 @@ impl PyCertificate {
         steps: &Bound<'_, PyAny>,
         margin: f64,
     ) -> PyResult<Self> {
+        if !(margin.is_finite() && margin >= 0.0) {
+            return Err(PyValueError::new_err(format!("margin {margin}: it must be finite and not below 0 m")));
+        }
         let array = numbers_of("steps", steps)?;
         let array = crate::arrays::borrowed("steps", &array)?;
         let shape = numpy::PyUntypedArrayMethods::shape(&*array);
@@ -140,7 +144,7 @@ impl PyCertificate {
 
     fn __repr__(&self) -> String {
         let (n, until) = (self.certificate.steps().len(), self.certificate.proven_until());
-        format!("<Certificate of {n} steps, free until {until:?}>")
+        format!("<Certificate of {}, free until {until:?}>", counted(n, "step"))
     }
 
     /// What pickles hold.

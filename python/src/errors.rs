@@ -11,7 +11,8 @@ create_exception!(
     motion_lab,
     Error,
     PyValueError,
-    "What the lab refuses. Every error of this package is one, but for `NoPath`."
+    "What the lab refuses: `WorldError`, `ConfigurationError`, `LogError` and `RunError` are kinds of it. Arguments of a \
+     wrong type, shape or range raise TypeError or ValueError, as elsewhere."
 );
 create_exception!(
     motion_lab,
@@ -28,7 +29,12 @@ create_exception!(
 );
 create_exception!(motion_lab, LogError, Error, "A log that cannot be read, or that does not fit.");
 create_exception!(motion_lab, RunError, Error, "A run that is refused.");
-create_exception!(motion_lab, NoPath, PyRuntimeError, "A planner found no path, and says why.");
+create_exception!(
+    motion_lab,
+    NoPath,
+    PyRuntimeError,
+    "A planner found no path, and says why; or start or goal can be none of a path."
+);
 
 /// A `WorldError` with the words of the library, and where in the text it is.
 pub fn world_error(py: Python<'_>, error: &LabWorldError) -> PyErr {

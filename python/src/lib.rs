@@ -39,6 +39,11 @@ use pyo3::prelude::*;
 mod _core {
     use super::*;
 
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+
     /// The names of the built-in worlds.
     #[pyfunction]
     fn world_names() -> [&'static str; 3] {

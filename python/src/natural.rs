@@ -25,3 +25,8 @@ pub fn natural(name: &str, given: &Bound<'_, PyAny>) -> PyResult<u64> {
 pub fn natural_or_none(name: &str, given: Option<&Bound<'_, PyAny>>) -> PyResult<Option<u64>> {
     given.filter(|given| !given.is_none()).map(|given| natural(name, given)).transpose()
 }
+
+/// A number of things in words: `1 leg`, `2 legs`.
+pub fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}

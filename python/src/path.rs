@@ -20,6 +20,7 @@ use motion_lab_sim::tour::TourConfig;
 
 use crate::errors::{Error, RunError};
 use crate::file::replace;
+use crate::natural::counted;
 use crate::picture::{PyPicture, theme};
 use crate::recording::recorded;
 use crate::robot::LabRobot;
@@ -256,8 +257,8 @@ impl PyPath {
 
     fn __repr__(&self) -> String {
         let PathLengths { length, clearance } = self.lengths;
-        let (planner, legs, unit) = (self.planner.id(), self.legs.len(), unit(&self.task.robot));
+        let (planner, legs, unit) = (self.planner.id(), counted(self.legs.len(), "leg"), unit(&self.task.robot));
         let clearance = proven(clearance);
-        format!("<Path of {legs} legs, {length:.3} {unit}, by {planner}: clearance {clearance} m, proven>")
+        format!("<Path of {legs}, {length:.3} {unit}, by {planner}: clearance {clearance} m, proven>")
     }
 }

@@ -19,7 +19,7 @@ use motion_lab_sim::tour::BOOK_SEED;
 
 use crate::arrays::Given;
 use crate::checker::PyChecker;
-use crate::errors::{NoPath, configuration_error};
+use crate::errors::{Error, NoPath, configuration_error};
 use crate::natural::natural_or_none;
 use crate::path::PyPath;
 use crate::robot::{LabRobot, PyRobot};
@@ -47,8 +47,8 @@ pub fn planner_names() -> Vec<&'static str> {
 /// (20,000 for `hybrid-a-star`); with it `rrt-star` goes on to there and shortens its path. `tube` is how much larger a
 /// disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
 ///
-/// Raises NoPath, which says why there is none; ConfigurationError for ends that are none of the robot's
-/// configurations. Ctrl+C stops it within 0.1 s.
+/// Raises NoPath, which says why there is none; Error for a planner that does not plan for this robot;
+/// ConfigurationError for ends that are none of the robot's configurations. Ctrl+C stops it within 0.1 s.
 #[pyfunction]
 #[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None,
     budget = None, tube = 0.0))]
@@ -79,7 +79,10 @@ pub fn plan(
     }
     let task = task(lab, (*world).clone(), scene, ends);
     let task = Task { tube, clearance, ..task };
-    let no_path = |reason: LabNoPath| NoPath::new_err(reason.to_string());
+    let no_path = |reason: LabNoPath| match reason {
+        LabNoPath::Unsuited(_) => Error::new_err(reason.to_string()),
+        reason => NoPath::new_err(reason.to_string()),
+    };
     let mut attempt = py.detach(|| task.attempt(name, seed)).map_err(no_path)?;
     let solved = solve(py, attempt.as_mut(), name, budget)?;
     solved.map_err(no_path)?;

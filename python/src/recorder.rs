@@ -21,7 +21,7 @@ use crate::script::{change_of, input_of};
 use crate::world::PyWorld;
 
 /// A run under way, that goes on tick by tick, takes inputs, and goes back and ahead. Its arguments are those of
-/// `record`; it ends where you stop.
+/// `record` but for `ticks` and `frames`: it ends where you stop, and it keeps frames on its way.
 ///
 /// One call at a time: a second one meanwhile, of another thread, raises RuntimeError. Raises RunError for a run that
 /// cannot start.
@@ -33,6 +33,21 @@ pub struct PyRecorder {
 /// The tick, if a run may have so many.
 fn allowed(tick: u64) -> PyResult<u64> {
     if tick <= MAX_TICKS { Ok(tick) } else { Err(RunError::new_err(ConfigError::Ticks(tick).to_string())) }
+}
+
+/// Goes to a tick, and hears Ctrl+C on the way ahead.
+fn sought(py: Python<'_>, run: &mut Recorder, tick: u64) -> PyResult<()> {
+    let robots = run.frame().robots.len();
+    let sought = interrupt::until(py, robots, || {
+        let now = run.frame().tick;
+        if now == tick {
+            return Some(Ok(()));
+        }
+        // ahead in short pieces, between which somebody may stop it
+        let to = if tick > now { tick.min(now.saturating_add(SOUGHT)) } else { tick };
+        run.seek(to).err().map(Err)
+    })?;
+    sought.map_err(|error| RunError::new_err(error.to_string()))
 }
 
 impl PyRecorder {
@@ -107,7 +122,8 @@ impl PyRecorder {
         Ok(self.now()?.script().to_ron())
     }
 
-    /// How many inputs were refused so far, and why the first was, in words: `(0, None)` if none was.
+    /// How many inputs and changes were refused so far, those that raised among them, and why the first was, in words:
+    /// `(0, None)` if none was. Going back forgets none.
     #[getter]
     fn refusals(&self) -> PyResult<(u64, Option<String>)> {
         let run = self.now()?;
@@ -140,28 +156,24 @@ impl PyRecorder {
     fn seek(&self, py: Python<'_>, tick: &Bound<'_, PyAny>) -> PyResult<()> {
         let tick = allowed(natural("tick", tick)?)?;
         let mut run = self.now()?;
-        let run = &mut *run;
-        let robots = run.frame().robots.len();
-        let sought = interrupt::until(py, robots, || {
-            let now = run.frame().tick;
-            if now == tick {
-                return Some(Ok(()));
-            }
-            // ahead in short pieces, between which somebody may stop it
-            let to = if tick > now { tick.min(now.saturating_add(SOUGHT)) } else { tick };
-            run.seek(to).err().map(Err)
-        })?;
-        sought.map_err(|error| RunError::new_err(error.to_string()))
+        sought(py, &mut run, tick)
     }
 
-    /// Go on from a frame of this run, of `frame` or of `Run.frame`.
+    /// Go to the tick of a frame of this run, of `frame` or of `Run.frame`, where its state is that frame to the last
+    /// bit.
     ///
-    /// Raises RunError for a frame of another run.
+    /// Raises RunError for a frame of another run, one with other settings or inputs before that tick; the run stands
+    /// where it stood then. Ctrl+C stops the way ahead within 0.1 s.
     fn restore(&self, py: Python<'_>, frame: &Bound<'_, PyFrame>) -> PyResult<()> {
+        let frame = &frame.get().frame;
         let mut run = self.now()?;
-        let (run, frame) = (&mut *run, &frame.get().frame);
-        let robots = run.frame().robots.len();
-        interrupt::once(py, robots, || run.restore(frame))?.map_err(|error| RunError::new_err(error.to_string()))
+        let before = run.frame().tick;
+        sought(py, &mut run, frame.tick)?;
+        if run.frame().digest() == frame.digest() {
+            return Ok(());
+        }
+        sought(py, &mut run, before)?;
+        Err(RunError::new_err(format!("the frame of tick {} is one of another run", frame.tick)))
     }
 
     /// Give a robot one input, which applies before the next tick:
@@ -195,7 +207,8 @@ impl PyRecorder {
     /// - `move=(name, (x, y, theta))`: move one from where it was at first, metres and radians;
     /// - `add=(name, [(x, y), ..], radius)`: put a new one there, all points within a radius of the hull of some.
     ///
-    /// Raises RunError for a change that the run cannot hold, and for one that a robot is in the way of.
+    /// Raises RunError for a change that the run cannot hold, and for a move or a closing that a robot is in the way
+    /// of. What only the tick can refuse, as a new obstacle where a robot is, is counted in `refusals`.
     #[pyo3(signature = (world, **change))]
     fn change(&self, py: Python<'_>, world: &str, change: Option<&Bound<'_, PyDict>>) -> PyResult<()> {
         let change = change_of(change)?;

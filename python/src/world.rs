@@ -17,6 +17,7 @@ use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
 
 use crate::drawing::world_svg;
 use crate::errors::{nowhere_in_a_world, world_error};
+use crate::natural::counted;
 use crate::picture::PyPicture;
 use crate::robot::{LabRobot, PyRobot};
 use crate::shapes::{Shapes, pieces};
@@ -218,7 +219,9 @@ impl PyWorld {
 
     fn __repr__(&self) -> String {
         let World { name, obstacles, robots, .. } = &*self.world;
-        format!("<World {name:?}: {} obstacles, {} robots>", obstacles.len(), robots.len())
+        let [obstacles, robots] =
+            [(obstacles.len(), "obstacle"), (robots.len(), "robot")].map(|(n, what)| counted(n, what));
+        format!("<World {name:?}: {obstacles}, {robots}>")
     }
 
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
@@ -314,7 +317,8 @@ impl PyObstacle {
     }
 
     fn __repr__(&self) -> String {
-        format!("<Obstacle {:?}: {} of {} shapes>", self.obstacle.name, self.kind(), self.obstacle.pieces.len())
+        let Obstacle { name, pieces, .. } = &self.obstacle;
+        format!("<Obstacle {name:?}: {} of {}>", self.kind(), counted(pieces.len(), "shape"))
     }
 }
 

@@ -206,7 +206,7 @@ def test_wrong_actions_are_refused_by_name_and_change_nothing():
     many = [
         (bad, "the action of episode 2 is not finite"),
         (np.full((3, 2), 1e300), "the action of episode 0 is not finite"),
-        (np.zeros((3, 3), np.float32), r"actions have the shape \(3, 3\), here it is \(3, 2\)"),
+        (np.zeros((3, 3), np.float32), r"actions have the shape \(3, 3\), not \(3, 2\)"),
         (np.zeros(6, np.float32), r"actions have the shape \(6,\)"),
         (np.zeros((2, 3), np.float32), r"actions have the shape \(2, 3\)"),
         (0.5, r"actions have the shape \(\)"),
@@ -222,7 +222,7 @@ def test_wrong_actions_are_refused_by_name_and_change_nothing():
     env.reset(seed=1)
     with pytest.raises(ml.Error, match="the action of episode 0 is not finite"):
         env.step([np.inf, 0])
-    with pytest.raises(ValueError, match=r"actions have the shape \(3,\), here it is \(2,\)"):
+    with pytest.raises(ValueError, match=r"actions have the shape \(3,\), not \(2,\)"):
         env.step(np.zeros(3))
 
 

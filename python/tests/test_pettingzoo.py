@@ -92,7 +92,7 @@ def test_wrong_actions_are_refused_by_the_agent_s_name_and_change_nothing():
     agent = env.agents[3]
     for wrong, words in [
         ({**right, agent: [np.nan, 0]}, f"the action of {agent} is not finite"),
-        ({**right, agent: [0, 0, 0]}, rf"{agent}: actions have the shape \(3,\), here it is \(2,\)"),
+        ({**right, agent: [0, 0, 0]}, rf"{agent}: actions have the shape \(3,\), not \(2,\)"),
         ({**right, agent: ["a", "b"]}, f"{agent}: actions are <U1"),
         ({**right, "rover 99999": [0, 0]}, "an action of 'rover 99999', who is no agent here"),
         ({name: action for name, action in right.items() if name != agent}, f"no action of '{agent}'"),
@@ -118,3 +118,8 @@ def test_before_the_first_reset_there_are_no_agents_and_without_a_seed_one_is_dr
     assert not np.array_equal(seen[agent], env.reset()[0][agent]), "the next episode has other goals"
     assert env.observation_space(agent) is env.observation_space(agent)
     assert seen[agent] in env.observation_space(agent)
+
+
+def test_an_action_of_no_agent_is_refused_where_there_are_none_too():
+    with pytest.raises(ValueError, match="an action of 'nobody', who is no agent here"):
+        Warehouse(10).step({"nobody": [0, 0]})

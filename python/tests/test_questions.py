@@ -215,3 +215,17 @@ def test_robots_have_the_sizes_of_the_library_and_refuse_what_it_refuses():
     sized = ml.Hitch(trailer=True, jackknife=1.2, length=4.5)
     assert eval(repr(sized), vars(ml)) == sized
     assert eval(repr(ml.Rusty(track=0.2)), vars(ml)) == ml.Rusty(track=0.2)
+
+
+@pytest.mark.parametrize("margin", [-10.0, -0.2, float("nan"), float("inf"), -float("inf")])
+def test_a_margin_that_is_none_proves_nothing(margin):
+    checker = ml.Checker("apartment", ml.Disc())
+    assert checker.edge((1, 4), (1, 7)).verdict == ml.HIT
+    with pytest.raises(ValueError, match=r"^margin .*: it must be finite and not below 0 m$"):
+        ml.Certificate(checker, (1, 4), (1, 7), [[0, 1, -9.0]], margin=margin)
+
+
+def test_the_version_is_that_of_the_package():
+    from importlib.metadata import version
+
+    assert ml.__version__ == version("motion-lab")

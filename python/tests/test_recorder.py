@@ -64,9 +64,20 @@ def test_a_frame_is_restored_and_goes_on_as_before():
     assert live.tick == 15 and live.frame == run.frame(15)
     live.step(25)
     assert live.frame == run.frame(40)
-    other = ml.Recorder("apartment")
-    with pytest.raises(ml.RunError, match="the frame of tick 15 has 3 robots, the run has 1"):
-        other.restore(run.frame(15))
+    # a frame of another run, by robots, seed, settings or inputs, is refused, and nothing has moved
+    driven = ml.record(ticks=40, seed=6, script=[(5, "Rusty", {"drive": (0, 128)})])
+    for other in (ml.Recorder("apartment", seed=6), ml.Recorder(seed=7), ml.Recorder(seed=6, rays=12)):
+        other.step(9)
+        before = other.frame
+        with pytest.raises(ml.RunError, match="^the frame of tick 15 is one of another run$"):
+            other.restore(run.frame(15))
+        assert other.frame == before and other.tick == 9
+    live = ml.Recorder(seed=6)
+    with pytest.raises(ml.RunError, match="another run"):
+        live.restore(driven.frame(15))
+    assert live.tick == 0
+    live.restore(driven.frame(4))
+    assert live.tick == 4, "before the input the runs are one"
 
 
 def test_a_robot_s_state_is_that_of_the_log():

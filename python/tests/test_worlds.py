@@ -201,3 +201,10 @@ def test_arrays_of_the_wrong_shape_are_refused_in_words(shapes, words):
     with pytest.raises(ValueError) as refused:
         ml.World.from_shapes(**shapes)
     assert str(refused.value) == words
+
+
+def test_what_things_are_is_said_in_words_of_one_and_of_many():
+    one = ml.World.from_shapes(boxes=[[0, 0, 1, 1]], bounds=(0, 0, 2, 2))
+    assert repr(one) == '<World "World": 1 obstacle, 0 robots>'
+    assert repr(one.obstacles[0]).endswith(": solid of 1 shape>")
+    assert repr(ml.World("lot")).endswith("1 robot>")

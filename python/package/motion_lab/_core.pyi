@@ -36,6 +36,7 @@ __all__ = [
     "Verification",
     "World",
     "WorldError",
+    "__version__",
     "_drawing",
     "plan",
     "planner_names",
@@ -54,6 +55,8 @@ _One: TypeAlias = tuple[SupportsFloat, ...] | list[float] | list[int]
 # any number of them, in arrays of any shape
 _Many: TypeAlias = npt.ArrayLike
 _World: TypeAlias = World | str
+
+__version__: str
 
 # questions
 

@@ -79,7 +79,7 @@ def as_actions(actions: Any, shape: tuple[int, ...]) -> Floats:
     """
     given = np.asarray(actions)
     if given.shape != shape:
-        raise ValueError(f"actions have the shape {given.shape}, here it is {shape}")
+        raise ValueError(f"actions have the shape {given.shape}, not {shape}")
     if given.dtype == np.float32 and given.flags.c_contiguous and given.flags.aligned:
         return given
     if not np.can_cast(given.dtype, np.float32, "same_kind"):
@@ -169,7 +169,7 @@ class VectorEnv(gym.vector.VectorEnv[Floats, Floats, npt.NDArray[Any]]):
 
     `autoreset_mode` says what follows the end of an episode:
 
-    - NEXT_STEP: the next step begins a new one, whatever its action, and earns nothing;
+    - NEXT_STEP: the next step begins a new one, whatever its action, which is finite, and earns nothing;
     - SAME_STEP: the same step begins it; `info["final_obs"]` and `info["final_info"]` say how the last one ended;
     - DISABLED: nothing; `reset(options={"reset_mask": m})` begins those anew that the array of bool says.
 

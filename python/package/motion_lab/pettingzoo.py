@@ -85,14 +85,14 @@ class Warehouse(pettingzoo.ParallelEnv[str, Floats, Floats]):  # type: ignore[mi
         Raises ValueError for an action that is missing, of no agent, or of another shape or type, and
         `motion_lab.Error` (a ValueError) for one that is not finite. Nothing has changed then.
         """
+        for agent in actions:
+            if agent not in self._rows:
+                raise ValueError(f"an action of {agent!r}, who is no agent here")
         agents = self.agents
         if not agents:
             return {}, {}, {}, {}, {}
         count = len(self.possible_agents)
         given = np.zeros((count, 2), np.float32)
-        for agent in actions:
-            if agent not in self._rows:
-                raise ValueError(f"an action of {agent!r}, who is no agent here")
         for agent in agents:
             if agent not in actions:
                 raise ValueError(f"no action of {agent!r}")
