@@ -6,7 +6,7 @@ mod worlds;
 
 use std::hint::black_box;
 
-use motion_lab::collision::{Checker, Collision, Rows, Scene};
+use motion_lab::collision::{Checker, Collision, Scene};
 use motion_lab::prelude::*;
 use motion_lab::recording::Recorder;
 use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
@@ -51,25 +51,6 @@ fn arms_places(times: usize) {
     (0..times).for_each(|i| _ = black_box(arm.footprint(&T2::new(black_box(i as f64 * 1e-3), 1.0))));
 }
 
-/// The questions over 10,000 rows that `benches/python_cost.py` asks too: of Rusty's disc in the Apartment.
-fn rows(kernel: &str, times: usize) {
-    let checker = Checker::new(Scene::apartment(), RustyDisc::default());
-    let row = |i: usize| [0.6 + 10.8 * ((i * 61 % 10_000) as f64) / 1e4, 0.5 + 7.0 * ((i * 37 % 10_000) as f64) / 1e4];
-    let from: Vec<f64> = (0..10_000).flat_map(row).collect();
-    let to: Vec<f64> = from.chunks(2).flat_map(|q| [q[0] + 0.2, q[1] + 0.1]).collect();
-    let [from, to] = [&from, &to].map(|numbers| Rows::new(checker.robot(), numbers, 2).unwrap());
-    let (mut hits, mut distances, mut witnesses) = ([false; 10_000], [0.0; 10_000], [None; 10_000]);
-    for _ in 0..times {
-        match kernel {
-            "rows-intersects" => checker.intersects_into(&from, black_box(&mut hits)),
-            "rows-distance" => checker.distances_into(&from, black_box(&mut distances)),
-            "rows-witness" => checker.witnesses_into(&from, black_box(&mut witnesses)),
-            _ => checker.edges_free_into(&from, &to, black_box(&mut hits)),
-        }
-        .unwrap();
-    }
-}
-
 fn main() {
     let mut arguments = std::env::args().skip(1);
     let kernel = arguments.next().unwrap_or_default();
@@ -88,7 +69,6 @@ fn main() {
             let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
             (0..times).for_each(|_| _ = black_box(recorder.step().tick));
         }
-        "rows-intersects" | "rows-distance" | "rows-witness" | "rows-edge_free" => rows(&kernel, times),
         _ => panic!("no kernel is named {kernel:?}"),
     }
 }

@@ -1,4 +1,4 @@
-"""Asks of 10,000 rows what `count rows-KERNEL` asks, for `benches/instructions --python`: KERNEL TIMES."""
+"""Asks questions of 10,000 rows, for `python/cost`: KERNEL TIMES."""
 
 import sys
 
