@@ -1,5 +1,5 @@
-//! A read log in the forms that other programs read: JSON lines, CSV, and MCAP for viewers; and the CSV's [`table`] as
-//! columns.
+//! A read log in the forms that other programs read: JSON lines, CSV, and MCAP for viewers; and the CSV's [`table()`]
+//! as columns.
 //!
 //! Each other function writes to any `std::io::Write`, and the same log gives the same bytes. In text, every number has
 //! the fewest digits that read back to the same bits; an infinite range is `inf`, in JSON as a text. Columns are called
