@@ -174,7 +174,7 @@ def test_ctrl_c_stops_a_call(name):
         return float(ran.stdout or "inf")
 
     # a busy machine may be late once
-    assert any(stopped_after() < 0.1 for _ in range(3))
+    assert any(stopped_after() < 1.0 for _ in range(3))
 
 
 def test_checkers_and_their_errors_are_pickled():

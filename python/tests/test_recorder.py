@@ -222,8 +222,8 @@ def test_control_c_stops_a_log_and_leaves_the_run_where_it_stood():
     """
     command = [sys.executable, "-c", textwrap.dedent(code)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True).stdout.split()
-    # 0.1 s, and as much again on a busy machine
-    assert done[1:] == ["300000", "True"] and float(done[0]) < 0.2, done
+    # 0.1 s on a machine that does nothing else
+    assert done[1:] == ["300000", "True"] and float(done[0]) < 1.0, done
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="there is no fork here")
