@@ -30,7 +30,7 @@ pub struct PyRecorder {
     run: Mutex<Recorder>,
 }
 
-/// The tick, if a run may have so many.
+/// The tick, if a run may reach it.
 fn allowed(tick: u64) -> PyResult<u64> {
     if tick <= MAX_TICKS { Ok(tick) } else { Err(RunError::new_err(ConfigError::Ticks(tick).to_string())) }
 }

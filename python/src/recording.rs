@@ -52,7 +52,7 @@ impl Settings<'_, '_> {
             (Some(0), _) | (None, None) => None,
             (rays, usual) => {
                 let RangeSensor { n_rays, max_range } = usual.unwrap_or(RangeSensor { n_rays: 1, max_range: 1.0 });
-                // so many that the library refuses them
+                // the library refuses the largest number
                 let n_rays = rays.map_or(n_rays, |rays| u32::try_from(rays).unwrap_or(u32::MAX));
                 Some(RangeSensor { n_rays, max_range: self.range.unwrap_or(max_range) })
             }

@@ -28,7 +28,7 @@ struct Table<'py> {
 }
 
 impl<'py> Table<'py> {
-    /// An array of rows of so many numbers, or of pairs of them.
+    /// An array of rows of this width, or of pairs of points.
     fn read(name: &'static str, given: &Bound<'py, PyAny>, width: usize, what: &str) -> PyResult<Self> {
         let array = numbers_of(name, given)?;
         let fits = match *array.shape() {

@@ -151,7 +151,7 @@ impl TableHead {
             refusals,
         } = robot;
         let Frame { tick, .. } = frame;
-        // no run has so many ticks that the sign would change
+        // a run has at most 2^32 ticks, so the sign stays
         take(LogCell::Integer(tick.cast_signed()));
         take(LogCell::Number(Some(*tick as f64 * DT)));
         take(LogCell::Integer(i64::from(*id)));
