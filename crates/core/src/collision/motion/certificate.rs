@@ -23,6 +23,9 @@ pub struct Certificate {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CertificateError {
+    /// A margin below 0 or not finite: what is above it need not be free.
+    #[error("the margin is {0} m: it must be finite and not below 0 m")]
+    Margin(f64),
     /// The steps do not begin at 0 or do not join.
     #[error("step {0} does not begin where the one before ends")]
     Broken(usize),

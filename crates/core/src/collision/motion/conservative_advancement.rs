@@ -41,6 +41,8 @@ pub fn march<M: Motion>(
     options: MarchOptions,
     certificate: Option<&mut Certificate>,
 ) -> EdgeVerdict {
+    // below 0 m a motion in contact would be above its margin; NaN stays, which nothing exceeds
+    let options = if options.margin < 0.0 { MarchOptions { margin: 0.0, ..options } } else { options };
     if let Some(leaving) = motion.leaves_limits() {
         return judge_beginning(motion, leaving, certificate, |beginning, certificate| {
             march_within(collision, beginning, options, certificate)

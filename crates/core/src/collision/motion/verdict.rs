@@ -56,7 +56,7 @@ impl UnresolvedReason {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarchOptions {
     /// The clearance that the motion must exceed, metres: one that comes as close counts as a hit. With 0 only contact
-    /// does.
+    /// does, and a margin below 0 counts as 0; above one that is no number nothing is.
     pub margin: f64,
     /// The greatest number of proof attempts.
     pub budget: u32,

@@ -22,12 +22,17 @@ const ROUNDING: f64 = 32.0;
 /// No step may go beyond where the motion leaves its robot's own limits.
 ///
 /// # Errors
-/// [`CertificateError`] names the first step that fails.
+/// [`CertificateError`] names the first step that fails, or a margin that proves nothing: below 0 a step may be above
+/// it and hit.
 pub fn verify_certificate<M: Motion>(
     collision: &dyn Collision,
     motion: &M,
     certificate: &Certificate,
 ) -> Result<f64, CertificateError> {
+    let margin = certificate.margin();
+    if !(margin.is_finite() && margin >= 0.0) {
+        return Err(CertificateError::Margin(margin));
+    }
     let limit = motion.leaves_limits().map_or(1.0, |leaving| leaving.within_until);
     let mut at = 0.0;
     for (i, step) in certificate.steps().iter().enumerate() {
@@ -41,7 +46,7 @@ pub fn verify_certificate<M: Motion>(
             return Err(CertificateError::BeyondLimit { step: i, within_until: limit });
         }
         let proven = proven(collision, motion, step);
-        if !(step.clearance <= proven && proven > certificate.margin()) {
+        if !(step.clearance <= proven && proven > margin) {
             return Err(CertificateError::Unproven { step: i, claimed: step.clearance, proven });
         }
         at = step.to;

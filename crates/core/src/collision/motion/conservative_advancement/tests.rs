@@ -109,6 +109,34 @@ fn a_margin_counts_as_contact() {
     let verdict = |margin: f64| march(c.scene(), &edge, MarchOptions { margin, budget: 4096 }, None);
     assert!(verdict(0.249).is_free());
     assert!(matches!(verdict(0.251), EdgeVerdict::Hit { free_until: 0.0, contact_at: 0.0, .. }));
+    assert!(!verdict(f64::NAN).is_free() && !verdict(f64::INFINITY).is_free());
+}
+
+/// A disc of 0.25 m through a wall: the clearance of its sweep is 0 m, which is above every margin below 0.
+#[test]
+fn below_a_margin_of_nothing_nothing_more_is_free() {
+    let c = disc(wall((3.0, -1.0), (3.0, 1.0)), 0.25);
+    let edge = c.robot().edge(&R2::new(0.0, 0.0), &R2::new(8.0, 0.0)).unwrap();
+    let whole = vec![ProvenStep { from: 0.0, to: 1.0, clearance: -1.0 }];
+    for margin in [-1e-300, -1.0, -1e6, f64::NEG_INFINITY, f64::NAN, f64::INFINITY] {
+        let mut certificate = Certificate::new();
+        let verdict = march(c.scene(), &edge, MarchOptions { margin, budget: 4096 }, Some(&mut certificate));
+        assert!(!verdict.is_free(), "{margin}: {verdict:?}");
+        if margin < 0.0 {
+            assert!(matches!(verdict, EdgeVerdict::Hit { .. }), "{margin}: {verdict:?}");
+            assert_eq!(certificate.margin(), 0.0);
+            let free = verify_certificate(c.scene(), &edge, &certificate).unwrap();
+            // the disc touches at x = 2.75 of 8
+            assert!(free > 0.34 && free < 2.75 / 8.0, "{margin}: {free}");
+        }
+        let forged = [vec![], whole.clone()].map(|steps| Certificate::from_steps(margin, steps));
+        for forged in &forged {
+            let verdict = verify_certificate(c.scene(), &edge, forged);
+            assert!(matches!(verdict, Err(CertificateError::Margin(_))), "{margin}: {verdict:?}");
+        }
+    }
+    let claim = Certificate::from_steps(-0.0, vec![ProvenStep { from: 0.0, to: 0.25, clearance: 0.7 }]);
+    assert_eq!(verify_certificate(c.scene(), &edge, &claim), Ok(0.25), "minus nothing is nothing");
 }
 
 #[test]
