@@ -71,7 +71,7 @@ pub use motion_lab_core::{
 pub use motion_lab_core::{names, text_position};
 #[doc(hidden)]
 pub use motion_lab_sim::manifest;
-pub use motion_lab_sim::{anatomy, atlas, export, plans, run, simulation, tour};
+pub use motion_lab_sim::{anatomy, atlas, course, export, plans, run, simulation, tour};
 
 /// Worlds: lists of named geometry, never bitmaps.
 pub mod worlds {
@@ -83,11 +83,9 @@ pub mod worlds {
 
 /// Recording, replaying and grading runs.
 pub mod recording {
-    pub use crate::course::*;
+    pub use motion_lab_sim::course::*;
     pub use motion_lab_sim::recording::*;
 }
-
-pub mod course;
 
 // the program's own; public because the program is a crate of its own
 #[doc(hidden)]

@@ -12,7 +12,7 @@ use pyo3::types::PyTuple;
 
 use motion_lab_core::collision::RowsError;
 
-use crate::arrays::{ManyRows, numpy_function, shape_text};
+use crate::arrays::{BLOCK, ManyRows, numpy_function, shape_text};
 use crate::pool;
 
 /// How many rows a call begins with: few enough that Ctrl+C does not wait for hard ones.
@@ -99,7 +99,8 @@ fn shares_memory<'py>(py: Python<'py>, out: &Bound<'py, PyAny>, input: &Bound<'p
 }
 
 /// Asks about some rows after others, in the pool where they are many, with the interpreter's lock released, and looks
-/// in between whether Ctrl+C was pressed. What is answered does not depend on how many rows a part has.
+/// in between whether Ctrl+C was pressed. What is answered does not depend on how many rows a part has; none crosses a
+/// multiple of [`BLOCK`].
 ///
 /// # Errors
 /// `ask`'s, as `ValueError`; `KeyboardInterrupt`.
@@ -113,7 +114,7 @@ pub fn each_chunk(
     }
     let (mut at, mut size) = (0, FIRST);
     while at < rows {
-        let part = at..rows.min(at + size);
+        let part = at..rows.min(at + size).min((at / BLOCK + 1) * BLOCK);
         at = part.end;
         let began = Instant::now();
         let asked = if part.len() > ALONE { pool::install(py, || ask(part))? } else { py.detach(|| ask(part)) };

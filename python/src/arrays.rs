@@ -12,14 +12,16 @@ use pyo3::types::{PyDict, PyFloat, PyInt, PyList, PyTuple};
 use motion_lab_core::collision::{Rows, RowsError};
 use motion_lab_core::robots::Robot;
 
-use crate::answers::each_chunk;
 use crate::errors::configuration_error;
 
 /// Most numbers in a row.
 pub const MAX_WIDTH: usize = 4;
 
-/// So many rows are checked before another thread misses the interpreter's lock.
-const QUICK: usize = 256;
+/// So many numbers are checked before another thread misses the interpreter's lock.
+const QUICK: usize = 512;
+
+/// So many rows are checked before Ctrl+C is heard; no part of a call goes on beyond a multiple of them.
+pub const BLOCK: usize = 1 << 18;
 
 /// What the rows of an argument are: `a Disc's configuration`, of `x`, `y`.
 #[derive(Clone, Debug)]
@@ -42,7 +44,15 @@ pub struct ManyRows<'py> {
     name: &'static str,
     /// What the caller gave.
     given: Bound<'py, PyAny>,
+    /// All of its axes but the last.
+    own_leading: Vec<usize>,
     array: PyReadonlyArrayDyn<'py, f64>,
+}
+
+/// Rows, each of them checked.
+pub struct CheckedRows<'a, R> {
+    /// [`BLOCK`] rows each, the last one fewer.
+    blocks: Vec<Rows<'a, R>>,
 }
 
 /// An argument: one row, or an array of them.
@@ -94,7 +104,9 @@ impl RowKind {
             Some(width) => return Err(self.refuse(name, &format!("{width} coordinates"))),
             None => return Err(self.refuse(name, "no axis")),
         }
-        Ok(ManyRows { name, given: given.clone(), array: borrowed(name, &array)? })
+        let array = borrowed(name, &array)?;
+        let own_leading = array.shape().split_last().map_or(Vec::new(), |(_, leading)| leading.to_vec());
+        Ok(ManyRows { name, given: given.clone(), own_leading, array })
     }
 }
 
@@ -185,6 +197,16 @@ pub fn borrowed<'py>(name: &str, array: &Bound<'py, PyArrayDyn<f64>>) -> PyResul
     array.try_readonly().map_err(|_| PyValueError::new_err(format!("another call is writing into {name}")))
 }
 
+impl<R: Robot> CheckedRows<'_, R> {
+    /// Some of the rows, within one [`BLOCK`].
+    pub fn part(&self, rows: &Range<usize>) -> Result<Rows<'_, R>, RowsError> {
+        let before = rows.start / BLOCK * BLOCK;
+        let block = self.blocks.get(rows.start / BLOCK);
+        let part = block.map(|block| block.part(rows.start - before..rows.end - before));
+        part.ok_or(RowsError::Places { answers: 0, places: rows.len() })
+    }
+}
+
 impl<'py> ManyRows<'py> {
     /// The numbers, row after row.
     ///
@@ -213,33 +235,33 @@ impl<'py> ManyRows<'py> {
         [(self.name, &self.given), (self.name, self.array.as_any())]
     }
 
-    /// Checks that every row is a configuration of this robot.
+    /// The rows as configurations of this robot, each of them checked.
     ///
     /// # Errors
-    /// `ConfigurationError` names the first that is not.
-    pub fn check<R: Robot>(&self, py: Python<'_>, robot: &R) -> PyResult<()> {
-        let (numbers, width) = (self.numbers()?, self.width());
-        let rows = numbers.len() / width.max(1);
-        let mut wrong = None;
-        let mut look = |part: Range<usize>| {
-            let refused = rows_in(robot, numbers, width, &part).err();
-            if let (Some(RowsError::Row { row, reason }), None) = (refused, &wrong) {
-                wrong = Some((part.start + row, reason));
-            }
-            Ok(())
-        };
-        if rows <= QUICK {
-            let _: Result<(), RowsError> = look(0..rows);
-        } else {
-            each_chunk(py, rows, look)?;
+    /// `ConfigurationError` names the first that is none.
+    pub fn checked<R: Robot>(&self, py: Python<'_>, robot: &R) -> PyResult<CheckedRows<'_, R>> {
+        let (numbers, width) = (self.numbers()?, self.width().max(1));
+        let mut blocks = Vec::new();
+        // no rows are a block too
+        for first in (0..numbers.len().max(1)).step_by(BLOCK * width) {
+            let block = numbers.get(first..numbers.len().min(first + BLOCK * width)).unwrap_or_default();
+            let read = || Rows::new(robot, block, width);
+            let rows = if block.len() <= QUICK { read() } else { py.detach(read) };
+            blocks.push(rows.map_err(|error| self.refused(py, blocks.len() * BLOCK, error))?);
+            py.check_signals()?;
         }
-        match wrong {
-            None => Ok(()),
-            Some((row, reason)) => {
-                let row = index_of(row, self.leading());
-                Err(configuration_error(py, self.name, &row, &reason.to_string()))
-            }
+        Ok(CheckedRows { blocks })
+    }
+
+    /// Names the row that is none, in the axes that the caller gave, which may be fewer than it was broadcast to.
+    fn refused(&self, py: Python<'_>, first: usize, error: RowsError) -> PyErr {
+        let RowsError::Row { row, reason } = error else { return PyValueError::new_err(error.to_string()) };
+        let mut index = index_of(first + row, self.leading());
+        index.drain(..index.len() - self.own_leading.len());
+        for (i, length) in index.iter_mut().zip(&self.own_leading) {
+            *i = (*i).min(length.saturating_sub(1));
         }
+        configuration_error(py, self.name, &index, &reason.to_string())
     }
 
     /// The same rows along leading axes that they broadcast to: a copy, unless they have these already.
@@ -278,17 +300,6 @@ pub fn along<'py>(py: Python<'py>, a: ManyRows<'py>, b: ManyRows<'py>) -> PyResu
         });
     }
     Ok((a.broadcast(py, &leading)?, b.broadcast(py, &leading)?))
-}
-
-/// Some rows of an argument, checked.
-pub fn rows_in<'a, R: Robot>(
-    robot: &R,
-    numbers: &'a [f64],
-    width: usize,
-    part: &Range<usize>,
-) -> Result<Rows<'a, R>, RowsError> {
-    let own = numbers.get(part.start * width..part.end * width).unwrap_or_default();
-    Rows::new(robot, own, width)
 }
 
 /// The index of a row in an array with these leading axes.

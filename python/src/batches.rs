@@ -9,7 +9,7 @@ use motion_lab_core::configuration::Configuration;
 use motion_lab_core::robots::{ConfigurationError, Robot};
 
 use crate::answers::{ALONE, Answers, each_chunk};
-use crate::arrays::{ManyRows, along, rows_in};
+use crate::arrays::{CheckedRows, ManyRows, along};
 
 /// Answers about all rows.
 pub fn of_rows<'py, R: Robot, T: Element + Send>(
@@ -19,14 +19,10 @@ pub fn of_rows<'py, R: Robot, T: Element + Send>(
     out: Option<&Bound<'py, PyAny>>,
     ask: impl Fn(&Rows<'_, R>, &mut [T]) -> Result<(), RowsError> + Send + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
-    q.check(py, checker.robot())?;
+    let rows = q.checked(py, checker.robot())?;
     let mut answers = Answers::<T>::new(py, out, q.leading(), &[q])?;
-    let (numbers, width) = (q.numbers()?, q.width());
     let places = answers.places()?;
-    each_chunk(py, places.len(), |part| {
-        let rows = rows_in(checker.robot(), numbers, width, &part)?;
-        ask(&rows, places.get_mut(part).unwrap_or_default())
-    })?;
+    each_chunk(py, places.len(), |part| ask(&rows.part(&part)?, places.get_mut(part).unwrap_or_default()))?;
     Ok(answers.into_object())
 }
 
@@ -38,28 +34,24 @@ pub fn of_pairs<'py, R: Robot>(
     out: Option<&Bound<'py, PyAny>>,
     ask: impl Fn(&Rows<'_, R>, &Rows<'_, R>, &mut [bool]) -> Result<(), RowsError> + Send + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (a, b) = both(py, checker.robot(), a, b)?;
+    let (a, b) = along(py, a, b)?;
+    let (from, to) = both(py, checker.robot(), &a, &b)?;
     let mut answers = Answers::<bool>::new(py, out, a.leading(), &[&a, &b])?;
-    let (from, to, width) = (a.numbers()?, b.numbers()?, a.width());
     let places = answers.places()?;
     each_chunk(py, places.len(), |part| {
-        let from = rows_in(checker.robot(), from, width, &part)?;
-        let to = rows_in(checker.robot(), to, width, &part)?;
-        ask(&from, &to, places.get_mut(part).unwrap_or_default())
+        ask(&from.part(&part)?, &to.part(&part)?, places.get_mut(part).unwrap_or_default())
     })?;
     Ok(answers.into_object())
 }
 
-/// Both arguments, checked, along the axes that they share.
-pub fn both<'py, R: Robot>(
-    py: Python<'py>,
+/// Both arguments, checked.
+pub fn both<'a, R: Robot>(
+    py: Python<'_>,
     robot: &R,
-    a: ManyRows<'py>,
-    b: ManyRows<'py>,
-) -> PyResult<(ManyRows<'py>, ManyRows<'py>)> {
-    a.check(py, robot)?;
-    b.check(py, robot)?;
-    along(py, a, b)
+    a: &'a ManyRows<'_>,
+    b: &'a ManyRows<'_>,
+) -> PyResult<(CheckedRows<'a, R>, CheckedRows<'a, R>)> {
+    Ok((a.checked(py, robot)?, b.checked(py, robot)?))
 }
 
 /// Whether the sweep from one configuration to another hits.
@@ -85,7 +77,8 @@ pub fn sweeps<'py, R: Robot>(
     (a, b): (ManyRows<'py>, ManyRows<'py>),
     out: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (a, b) = both(py, checker.robot(), a, b)?;
+    let (a, b) = along(py, a, b)?;
+    both(py, checker.robot(), &a, &b)?;
     let mut answers = Answers::<bool>::new(py, out, a.leading(), &[&a, &b])?;
     let (from, to, width) = (a.numbers()?, b.numbers()?, a.width());
     let places = answers.places()?;

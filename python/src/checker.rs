@@ -8,7 +8,7 @@ use motion_lab_core::collision::{Checker, Collision};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::robots::{ConfigurationError, Hitch, Reach, Robot, Rusty, RustyDisc};
 
-use crate::arrays::{Given, ManyRows, OneRow, RowKind, rows_in};
+use crate::arrays::{Given, ManyRows, OneRow, RowKind, along};
 use crate::batches::{both, numbered, of_pairs, of_rows, sweep_hits, sweeps};
 use crate::certificate::PyCertificate;
 use crate::errors::configuration_error;
@@ -251,11 +251,8 @@ impl PyChecker {
                 verdicts::witness(py, c.scene().witness(&c.robot().footprint(&q)))
             }),
             Given::Many(q) => with_checker!(&self.checker, c => {
-                q.check(py, c.robot())?;
-                let (numbers, width) = (q.numbers()?, q.width());
-                verdicts::witnesses(py, q.leading(), |part, places| {
-                    c.witnesses_into(&rows_in(c.robot(), numbers, width, part)?, places)
-                })
+                let rows = q.checked(py, c.robot())?;
+                verdicts::witnesses(py, q.leading(), |part, places| c.witnesses_into(&rows.part(part)?, places))
             }),
         }
     }
@@ -314,13 +311,11 @@ impl PyChecker {
                 verdicts::edge(py, verdict.map_err(|reason| configuration_error(py, "a", &[], &reason.to_string()))?)
             }),
             Err((a, b)) => with_checker!(&self.checker, c => {
-                let (a, b) = both(py, c.robot(), a, b)?;
-                let (from, to, width) = (a.numbers()?, b.numbers()?, a.width());
+                let (a, b) = along(py, a, b)?;
+                let (from, to) = both(py, c.robot(), &a, &b)?;
                 verdicts::edges(py, a.leading(), |part| {
-                    let from = rows_in(c.robot(), from, width, part)?;
-                    let to = rows_in(c.robot(), to, width, part)?;
                     let mut found = vec![Err(ConfigurationError::NotFinite); part.len()];
-                    c.edges_into(&from, &to, &mut found)?;
+                    c.edges_into(&from.part(part)?, &to.part(part)?, &mut found)?;
                     numbered(found, part.start)
                 })
             }),

@@ -4,6 +4,7 @@
 
 mod answers;
 mod arrays;
+mod assignment;
 mod batches;
 mod buffers;
 mod certificate;
@@ -22,6 +23,7 @@ mod planning;
 mod pool;
 mod recorder;
 mod recording;
+mod resident;
 mod robot;
 mod run;
 mod scan;
@@ -60,13 +62,17 @@ mod _core {
     #[pymodule_export]
     use crate::pool::{set_threads, threads};
     #[pymodule_export]
+    use crate::resident::PyResident;
+    #[pymodule_export]
     use crate::robot::{PyDisc, PyHitch, PyReach, PyRobot, PyRusty};
     #[pymodule_export]
     use crate::scan::scan;
     #[pymodule_export]
-    use crate::world::{PyObstacle, PyResident, PyWorld};
+    use crate::world::{PyObstacle, PyWorld};
 
     // plans and runs
+    #[pymodule_export]
+    use crate::assignment::{PyAssignment, PyAttempt, PyGrade};
     #[pymodule_export]
     use crate::drawing::_drawing;
     #[pymodule_export]

@@ -64,7 +64,7 @@ pub fn scan<'py>(
     };
     let pose = RowKind { what: "a pose".to_owned(), names: ["x", "y", "theta"].map(str::to_owned).to_vec() };
     let poses = pose.read_array("poses", poses)?;
-    poses.check(py, &RUSTY)?;
+    poses.checked(py, &RUSTY)?;
     let n = n_rays as usize;
     let mut answers = Answers::<f64>::new(py, out, &[poses.leading(), &[n]].concat(), &[&poses])?;
     let (numbers, width) = (poses.numbers()?, poses.width());

@@ -133,6 +133,11 @@ pub fn edge(py: Python<'_>, verdict: EdgeVerdict) -> PyResult<Bound<'_, PyAny>> 
     classes.make(&classes.edge, py, fields)
 }
 
+/// The places of some rows.
+fn places_of<'a, T>(places: &'a mut [T], rows: &Range<usize>) -> std::slice::IterMut<'a, T> {
+    places.get_mut(rows.clone()).unwrap_or_default().iter_mut()
+}
+
 /// The witnesses of all rows of an array with these leading axes, as a named tuple of arrays. `ask` answers some rows.
 pub fn witnesses<'py>(
     py: Python<'py>,
@@ -146,23 +151,24 @@ pub fn witnesses<'py>(
     let mut part = Answers::<i64>::new(py, None, leading, &[])?;
     let mut obstacle = Answers::<i64>::new(py, None, leading, &[])?;
     {
-        let mut places = distance
-            .places()?
-            .iter_mut()
-            .zip(on_robot.places()?.chunks_exact_mut(2))
-            .zip(on_obstacle.places()?.chunks_exact_mut(2))
-            .zip(part.places()?)
-            .zip(obstacle.places()?);
+        let (distance, part, obstacle) = (distance.places()?, part.places()?, obstacle.places()?);
+        let (on_robot, _) = on_robot.places()?.as_chunks_mut::<2>();
+        let (on_obstacle, _) = on_obstacle.places()?.as_chunks_mut::<2>();
         let mut found = Vec::new();
         each_chunk(py, leading.iter().product(), |rows| {
-            found.clear();
-            found.resize(rows.len(), None);
-            ask(&rows, &mut found)?;
-            for (w, ((((d, a), b), p), o)) in found.drain(..).zip(&mut places) {
-                let row = WitnessRow::from(w);
-                (*d, *p, *o) = (row.distance, row.part, row.obstacle);
-                a.copy_from_slice(&row.on_robot);
-                b.copy_from_slice(&row.on_obstacle);
+            if found.len() < rows.len() {
+                found = vec![None; rows.len()];
+            }
+            let found = found.get_mut(..rows.len()).unwrap_or_default();
+            ask(&rows, found)?;
+            let places = places_of(distance, &rows)
+                .zip(places_of(on_robot, &rows))
+                .zip(places_of(on_obstacle, &rows))
+                .zip(places_of(part, &rows))
+                .zip(places_of(obstacle, &rows));
+            for (w, ((((d, a), b), p), o)) in found.iter().zip(places) {
+                let row = WitnessRow::from(*w);
+                (*d, *a, *b, *p, *o) = (row.distance, row.on_robot, row.on_obstacle, row.part, row.obstacle);
             }
             Ok(())
         })?;

@@ -12,14 +12,14 @@ use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 
 use motion_lab_core::collision::Scene;
 use motion_lab_core::geometry::Aabb;
-use motion_lab_core::robots::AnyRobot;
-use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
+use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
 
 use crate::drawing::world_svg;
 use crate::errors::{nowhere_in_a_world, world_error};
 use crate::natural::counted;
 use crate::picture::PyPicture;
-use crate::robot::{LabRobot, PyRobot};
+use crate::resident::{PyResident, resident};
+use crate::robot::PyRobot;
 use crate::shapes::{Shapes, pieces};
 
 /// Largest world file that is read, bytes.
@@ -64,34 +64,38 @@ impl PyWorld {
             return Ok(world.clone());
         }
         match given.cast::<PyString>() {
-            Ok(name) => Bound::new(given.py(), named(given.py(), &name.to_string_lossy())?),
+            Ok(name) => Bound::new(given.py(), PyWorld::named(given.py(), &name.to_string_lossy())?),
             Err(_) => {
                 let class = given.get_type().name()?;
                 Err(PyTypeError::new_err(format!("a world is a World or the name of one, not {class}")))
             }
         }
     }
-}
 
-fn named(py: Python<'_>, name: &str) -> PyResult<PyWorld> {
-    let known = World::built_in_names();
-    let kept = known.iter().position(|known| *known == name).and_then(|i| BUILT_IN.get(i));
-    if let Some(world) = kept.and_then(OnceLock::get) {
-        return Ok(world.clone());
+    /// The built-in world of a name.
+    ///
+    /// # Errors
+    /// `WorldError` for a name that there is not.
+    pub fn named(py: Python<'_>, name: &str) -> PyResult<PyWorld> {
+        let known = World::built_in_names();
+        let kept = known.iter().position(|known| *known == name).and_then(|i| BUILT_IN.get(i));
+        if let Some(world) = kept.and_then(OnceLock::get) {
+            return Ok(world.clone());
+        }
+        let world = World::named(name).map_err(|unknown| {
+            let file = if unknown.meant().is_none() { ", and World.read reads a file" } else { "" };
+            nowhere_in_a_world(py, format!("{unknown}{file}"))
+        })?;
+        let world = PyWorld::from(world);
+        Ok(kept.map_or(world.clone(), |kept| kept.get_or_init(|| world).clone()))
     }
-    let world = World::named(name).map_err(|unknown| {
-        let file = if unknown.meant().is_none() { ", and World.read reads a file" } else { "" };
-        nowhere_in_a_world(py, format!("{unknown}{file}"))
-    })?;
-    let world = PyWorld::from(world);
-    Ok(kept.map_or(world.clone(), |kept| kept.get_or_init(|| world).clone()))
 }
 
 #[pymethods]
 impl PyWorld {
     #[new]
     fn new(py: Python<'_>, name: &str) -> PyResult<Self> {
-        named(py, name)
+        PyWorld::named(py, name)
     }
 
     /// Read a world file of at most 32 MiB: the RON text that `motion-lab world show apartment` prints.
@@ -99,7 +103,7 @@ impl PyWorld {
     /// Raises OSError for a file that cannot be read, and WorldError, with `path`, `line` and `column`, for one that is
     /// no world.
     #[staticmethod]
-    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+    pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let shown = path.display().to_string();
         let bytes = py.detach(|| read_bytes(&path)).map_err(|error| os_error(&error, &path))?;
         let Some(bytes) = bytes else {
@@ -169,6 +173,17 @@ impl PyWorld {
         Ok(shapes.finish(py, name, bounds)?.into())
     }
 
+    /// The same world with one more robot, which lives in it: `robot`, a `Rusty`, `Reach` or `Hitch`, at the
+    /// configuration `start`; of a rover that is `x, y, theta`, of a car with its trailer one number more.
+    ///
+    /// Raises WorldError for a name that is taken or none, and for a start or sizes that the world has no room for.
+    fn with_robot(&self, py: Python<'_>, name: &str, robot: &Bound<'_, PyRobot>, start: Vec<f64>) -> PyResult<Self> {
+        let added = resident(py, &self.world, name, &robot.get().robot, start)?;
+        let mut world = (*self.world).clone();
+        world.robots.push(added);
+        Ok(world.into())
+    }
+
     /// The world's name.
     #[getter]
     fn name(&self) -> &str {
@@ -192,7 +207,7 @@ impl PyWorld {
     /// The robots that live in it.
     #[getter]
     fn robots<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let robots = self.world.robots.iter().cloned().map(|resident| PyResident { resident });
+        let robots = self.world.robots.iter().cloned().map(PyResident::from);
         PyTuple::new(py, robots.collect::<Vec<_>>())
     }
 
@@ -319,44 +334,5 @@ impl PyObstacle {
     fn __repr__(&self) -> String {
         let Obstacle { name, pieces, .. } = &self.obstacle;
         format!("<Obstacle {name:?}: {} of {}>", self.kind(), counted(pieces.len(), "shape"))
-    }
-}
-
-/// A robot that lives in a world.
-#[pyclass(frozen, name = "Resident", module = "motion_lab")]
-pub struct PyResident {
-    resident: Resident,
-}
-
-#[pymethods]
-impl PyResident {
-    /// Its name, unique in its world.
-    #[getter]
-    fn name(&self) -> &str {
-        &self.resident.name
-    }
-
-    /// Its kind, as world files have it: `'rusty'`, `'reach'`, `'reach3'`, `'hitch'`, or one of a program's own.
-    #[getter]
-    fn kind(&self) -> &str {
-        &self.resident.kind
-    }
-
-    /// The configuration in which it starts.
-    #[getter]
-    fn start<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, &self.resident.start)
-    }
-
-    /// The robot, of its own sizes, for a `Checker`; None for one of a kind that is not the lab's.
-    #[getter]
-    fn robot(&self, py: Python<'_>) -> PyResult<Option<Py<PyRobot>>> {
-        let robot = AnyRobot::of_resident(&self.resident);
-        robot.map(|(robot, _)| LabRobot::of_any(robot).into_object(py)).transpose()
-    }
-
-    fn __repr__(&self) -> String {
-        let Resident { name, kind, start, .. } = &self.resident;
-        format!("<Resident {name:?}: {kind} at {start:?}>")
     }
 }

@@ -140,7 +140,7 @@ def test_other_threads_run_while_a_call_of_a_thousand_rows_and_more_is_under_way
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGINT") or sys.platform == "win32", reason="the system sends no signals")
-@pytest.mark.parametrize("name", ["distance", "edge_free", "edge", "swept", "scan"])
+@pytest.mark.parametrize("name", ["distance", "edge_free", "edge", "swept", "scan", "grade"])
 def test_ctrl_c_stops_a_call(name):
     code = f"""
         import os, signal, threading, time
@@ -153,7 +153,12 @@ def test_ctrl_c_stops_a_call(name):
             pressed.append(time.monotonic())
             os.kill(os.getpid(), signal.SIGINT)
         timer = threading.Timer(0.3, press)
+        exam = ml.Assignment.parse(
+            'Assignment(version: 1, world: "lot", robot: "Hitch", goal: (at: [7.5, 2.5, 0], within: [0, 0, 0]), '
+            'limits: (ticks: 100000), seeds: "0..1000")'
+        )
         asks = {{
+            "grade": lambda: exam.grade([]),
             "scan": lambda: ml.scan("lot", np.ascontiguousarray(q[:400_000, :3]), rays=360),
             "distance": lambda: [checker.distance(q) for _ in range(50)],
             "edge": lambda: checker.edge(q[:-1], q[1:]),

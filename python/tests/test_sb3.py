@@ -1,5 +1,6 @@
 """Stable-Baselines3's vector environment; where it is not installed, on a stub with the contract of its base class."""
 
+import importlib
 import importlib.util
 import subprocess
 import sys
@@ -154,3 +155,24 @@ def test_the_module_loads_without_stable_baselines3_and_says_what_is_missing_whe
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "True"
+
+
+@pytest.mark.parametrize("task", ["RustyGoal", "HitchPark", "ReachPost"])
+def test_stable_baselines3_finds_nothing_wrong(task):
+    checked = pytest.importorskip("stable_baselines3.common.env_checker", reason="Stable-Baselines3 is not installed")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        checked.check_env(Env(task))
+
+
+def test_ppo_learns_for_10_000_steps(tmp_path):
+    sb3 = pytest.importorskip("stable_baselines3", reason="Stable-Baselines3 is not installed")
+    from stable_baselines3.common.vec_env import VecMonitor
+
+    replicas = importlib.import_module("motion_lab.sb3").VecEnv("RustyGoal", 16)
+    model = sb3.PPO("MlpPolicy", VecMonitor(replicas), n_steps=128, seed=7, device="cpu")
+    model.learn(10_000)
+    # a rollout is 16 times 128 steps
+    assert model.num_timesteps == 10_240 and len(model.ep_info_buffer) > 0
+    replicas.episode(3).write(tmp_path / "episode.mcap")
+    assert replicas.episode(3).verify()

@@ -208,3 +208,38 @@ def test_what_things_are_is_said_in_words_of_one_and_of_many():
     assert repr(one) == '<World "World": 1 obstacle, 0 robots>'
     assert repr(one.obstacles[0]).endswith(": solid of 1 shape>")
     assert repr(ml.World("lot")).endswith("1 robot>")
+
+
+def test_robots_live_in_worlds_of_arrays_too():
+    empty = ml.World.from_shapes(boxes=[(2, 0, 3, 1)], bounds=(0, 0, 8, 6))
+    world = empty.with_robot("Rover", ml.Rusty(0.2), (1, 2, 0)).with_robot("Arm", ml.Reach(), [0.5, 1])
+    world = world.with_robot("Car", ml.Hitch(trailer=True, length=4.5), (5, 4, 0, 0))
+    assert (empty.robots, [robot.name for robot in world.robots]) == ((), ["Rover", "Arm", "Car"])
+    assert [robot.kind for robot in world.robots] == ["rusty", "reach", "hitch"]
+    assert [robot.start for robot in world.robots] == [(1, 2, 0), (0.5, 1), (5, 4, 0, 0)]
+    assert world.robots[0].robot == ml.Rusty(0.2) and world.robots[1].robot == ml.Reach()
+    assert ml.World.parse(str(world)) == world == pickle.loads(pickle.dumps(world))
+    # 20 ticks of 0.05 s at 0.6 m/s, its most, by wheels of 33 mm; its motion is noisy
+    run = ml.record(world, ticks=20, script=[(1, "Rover", {"drive": (128, 0)})])
+    state = run.states("Rover")[-1]
+    assert state["left_wheel"] == pytest.approx(0.6 / 0.033, abs=1e-12) and run.verify()
+    assert abs(state["x"] - 1.6) < 0.05 and state["in_contact"] == 0
+
+
+def test_a_robot_that_a_world_has_no_room_for_is_refused():
+    world = ml.World("apartment")
+    taken = world.robots[0].name
+    for name, robot, start, words in [
+        (taken, ml.Rusty(), (1, 1, 0), "something in the world has this name already"),
+        (world.obstacles[0].name, ml.Rusty(), (1, 1, 0), "something in the world has this name already"),
+        (" Rover", ml.Rusty(), (1, 1, 0), "blanks"),
+        ("R", ml.Rusty(), (1, 1), "coordinates"),
+        ("R", ml.Rusty(), (1, 1, np.nan), "finite"),
+        ("R", ml.Rusty(), (-1, 1, 0), "outside"),
+        ("R", ml.Rusty(5.0), (6, 4, 0), "a diameter of 10 m"),
+        ("R", ml.Reach(base=(20, 0)), (0, 0), "base"),
+    ]:
+        with pytest.raises(ml.WorldError, match=words):
+            world.with_robot(name, robot, start)
+    with pytest.raises(TypeError, match="a Disc has no wheels"):
+        world.with_robot("R", ml.Disc(), (1, 1))

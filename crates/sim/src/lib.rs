@@ -27,6 +27,8 @@ pub mod simulation;
 
 pub mod recording;
 
+pub mod course;
+
 pub mod tasks;
 
 pub mod export;

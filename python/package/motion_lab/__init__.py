@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 # questions
 from ._core import (
+    Assignment,
+    Attempt,
     Certificate,
     Checker,
     ConfigurationError,
@@ -14,6 +16,7 @@ from ._core import (
     Disc,
     Error,
     Frame,
+    Grade,
     Hitch,
     LogError,
     NoPath,
@@ -48,6 +51,8 @@ __all__ = [
     "FREE",
     "HIT",
     "UNRESOLVED",
+    "Assignment",
+    "Attempt",
     "Certificate",
     "Checker",
     "ConfigurationError",
@@ -56,6 +61,7 @@ __all__ = [
     "Edge",
     "Error",
     "Frame",
+    "Grade",
     "Hitch",
     "LogError",
     "NoPath",

@@ -96,6 +96,42 @@ fn rows_that_are_no_configurations_are_named_by_their_number() {
     numbers[10] = f64::INFINITY;
     let reason = ConfigurationError::NotFinite;
     assert_eq!(row(&numbers, 4), Err(RowsError::Row { row: 2, reason }), "the third row, from 0");
+    // of every width each number counts, in the first row, within and in the last one
+    fn each_number<R: Robot>(robot: &R, width: usize) {
+        for at in 0..5 * width {
+            let mut numbers = vec![0.5; 5 * width];
+            assert_eq!(Rows::new(robot, &numbers, width).map(|rows| rows.len()), Ok(5));
+            numbers[at] = f64::NAN;
+            let reason = ConfigurationError::NotFinite;
+            let refused = Rows::new(robot, &numbers, width).map(|rows| rows.len());
+            assert_eq!(refused, Err(RowsError::Row { row: at / width, reason }), "number {at}");
+        }
+    }
+    each_number(&RustyDisc::default(), 2);
+    each_number(&RUSTY, 3);
+    each_number(&HITCH, 3);
+    each_number(&car, 4);
+    each_number(&Reach::<1> { base: Point2::new(0.0, 0.0), lengths: [1.0], link_radius: 0.1 }, 1);
+    each_number(&Reach::<5> { base: Point2::new(0.0, 0.0), lengths: [1.0; 5], link_radius: 0.1 }, 5);
+}
+
+#[test]
+fn a_part_of_rows_is_those_of_its_range_that_there_are() {
+    let disc = Checker::new(block(), RustyDisc::default());
+    let numbers: Vec<f64> = (0..20).map(|i| f64::from(i) * 0.3).collect();
+    let rows = Rows::new(disc.robot(), &numbers, 2).unwrap();
+    let distances = |rows: &Rows<'_, RustyDisc>| {
+        let mut found = vec![0.0; rows.len()];
+        disc.distances_into(rows, &mut found).unwrap();
+        found
+    };
+    let all = distances(&rows);
+    assert_eq!(distances(&rows.part(3..7)), all[3..7]);
+    assert_eq!(distances(&rows.part(8..99)), all[8..]);
+    assert_eq!(distances(&rows.part(3..8).part(1..3)), all[4..6]);
+    assert!(
+        rows.part(4..4).is_empty() && rows.part(10..12).is_empty() && rows.part(usize::MAX - 1..usize::MAX).is_empty()
+    );
 }
 
 #[test]

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use motion_lab_sim::recording::RunError;
-use motion_lab_sim::tour::MAX_TICKS;
+use crate::recording::RunError;
+use crate::tour::MAX_TICKS;
 
 /// Largest number of seeds in an assignment.
 pub const MAX_SEEDS: usize = 10_000;

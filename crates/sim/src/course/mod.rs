@@ -8,9 +8,9 @@
 //! assignment says `set_trailer: true`.
 //!
 //! ```
-//! use motion_lab::recording::{AssignmentFile, Submission};
-//! use motion_lab::run::Script;
-//! use motion_lab::worlds::World;
+//! use motion_lab_sim::course::{AssignmentFile, Submission};
+//! use motion_lab_sim::run::Script;
+//! use motion_lab_core::worlds::World;
 //!
 //! let text = r#"Assignment(
 //!     version: 1,
@@ -54,8 +54,8 @@ pub use points::Points;
 pub use score::{Criterion, Score};
 pub use stay::{Stay, When};
 
-use motion_lab_sim::recording::RunError;
-use motion_lab_sim::run::{Difference, Log, RobotInput, Script, ScriptError};
+use crate::recording::RunError;
+use crate::run::{Difference, Log, RobotInput, Script, ScriptError};
 
 /// The work handed in.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,15 +126,35 @@ impl Assignment {
     /// [`grade`](Self::grade), which calls `on_tick` after each tick with the number of the attempt, from 0, and the
     /// tick.
     pub fn grade_watched(&self, submission: &Submission, mut on_tick: impl FnMut(usize, u64)) -> Grade {
+        let all = self.grade_while(submission, |attempt, tick| {
+            on_tick(attempt, tick);
+            true
+        });
+        // nothing stops it
+        all.unwrap_or_else(|| self.graded(Ok(Vec::new())))
+    }
+
+    /// [`grade`](Self::grade), which asks after each tick, by the number of the attempt, from 0, and the tick, whether
+    /// to go on; `None` once it is not to. A log is simulated again before, without asking.
+    pub fn grade_while(&self, submission: &Submission, mut goes_on: impl FnMut(usize, u64) -> bool) -> Option<Grade> {
         let script = match submission {
             Submission::Script(script) => script,
             Submission::Log(log) => &log.recipe.script,
         };
-        let attempts = self.accept(submission).and_then(|()| {
-            let seeds = self.seeds().iter().enumerate();
-            let attempt = |(i, &seed)| Ok(Attempt::run(self, seed, script, |tick| on_tick(i, tick))?);
-            seeds.map(attempt).collect::<Result<Vec<_>, Refusal>>()
-        });
+        let mut attempts = Vec::new();
+        if let Err(refusal) = self.accept(submission) {
+            return Some(self.graded(Err(refusal)));
+        }
+        for (i, &seed) in self.seeds().iter().enumerate() {
+            match Attempt::run(self, seed, script, |tick| goes_on(i, tick)) {
+                Ok(attempt) => attempts.push(attempt?),
+                Err(reason) => return Some(self.graded(Err(reason.into()))),
+            }
+        }
+        Some(self.graded(Ok(attempts)))
+    }
+
+    fn graded(&self, attempts: Result<Vec<Attempt>, Refusal>) -> Grade {
         let (refusal, attempts) = match attempts {
             Ok(attempts) => (None, attempts),
             Err(refusal) => (Some(refusal), Vec::new()),
@@ -176,5 +196,32 @@ impl Assignment {
             Some(event) if !self.may_set_trailer() => Err(Refusal::Trailer(event)),
             _ => Ok(()),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_lab_core::worlds::World;
+
+    #[test]
+    fn grading_goes_on_as_long_as_it_is_told_to() {
+        let text = r#"Assignment(version: 1, world: "lot", robot: "Hitch", goal: (at: [7.5, 2.5, 0],
+            within: [0.1, 0.1, 0.1]), limits: (ticks: 20), seeds: "0..3")"#;
+        let assignment = AssignmentFile::parse("exam.ron", text).unwrap().in_world(World::lot()).unwrap();
+        let stands = Submission::Script(Script::empty());
+        let mut asked = Vec::new();
+        let stopped = assignment.grade_while(&stands, |attempt, tick| {
+            asked.push((attempt, tick));
+            (attempt, tick) != (1, 7)
+        });
+        assert_eq!(stopped, None);
+        let first = (1..=20).map(|tick| (0, tick));
+        assert_eq!(asked, first.chain((1..=7).map(|tick| (1, tick))).collect::<Vec<_>>());
+        let mut count = 0;
+        let whole = assignment.grade_watched(&stands, |_, _| count += 1);
+        assert_eq!((count, whole.attempts.len()), (60, 3));
+        assert_eq!(assignment.grade_while(&stands, |_, _| true), Some(whole.clone()));
+        assert_eq!(assignment.grade(&stands), whole);
     }
 }

@@ -4,12 +4,12 @@ use std::fmt;
 
 use super::assignment::difference;
 use super::{Assignment, When};
+use crate::recording::RunError;
+use crate::run::Script;
 use motion_lab_core::configuration::{Configuration as _, Coordinates, RobotKind};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::{greater, sqrt};
 use motion_lab_core::random::Seed;
-use motion_lab_sim::recording::RunError;
-use motion_lab_sim::run::Script;
 
 /// Least motion of a tick that counts as forward or backward, metres. A robot held at a wall creeps by less.
 const CREEP: f64 = 1e-6;
@@ -111,13 +111,13 @@ impl Attempt {
         self.verdict == AttemptOutcome::Passed
     }
 
-    /// Runs the script at a seed until it is decided. Calls `on_tick` after each tick.
+    /// Runs the script at a seed until it is decided. Asks after each tick whether to go on; `None` once it is not to.
     pub(super) fn run(
         assignment: &Assignment,
         seed: Seed,
         script: &Script,
-        mut on_tick: impl FnMut(u64),
-    ) -> Result<Attempt, RunError> {
+        mut goes_on: impl FnMut(u64) -> bool,
+    ) -> Result<Option<Attempt>, RunError> {
         let (limits, hold) = (assignment.limits(), assignment.hold());
         let (robot, about, goal) = (assignment.robot(), assignment.about(), assignment.goal());
         let mut run = assignment.begin(seed, script)?;
@@ -127,7 +127,9 @@ impl Attempt {
         loop {
             let frame = run.step();
             let (tick, state) = (frame.tick, &frame.robots[robot]);
-            on_tick(tick);
+            if !goes_on(tick) {
+                return Ok(None);
+            }
             if let Some(way) = way(about, &before, &state.configuration) {
                 reversals = reversals.saturating_add(u32::from(ahead.is_some_and(|a| a != way)));
                 ahead = Some(way);
@@ -166,7 +168,7 @@ impl Attempt {
                 broken.unwrap_or_else(|| reached(verdict));
             let difference = difference(about, &goal.at, &configuration);
             let distance = difference.map(|difference| GoalDistance::of(about, &difference));
-            return Ok(Attempt { seed, verdict, tick, contacts, reversals, configuration, distance, met });
+            return Ok(Some(Attempt { seed, verdict, tick, contacts, reversals, configuration, distance, met }));
         }
     }
 }

@@ -7,15 +7,15 @@ use super::added_kinds::AddedKinds;
 use super::assignment_text::{AssignmentText, AssignmentVersion, Goal, Limits, item_of, items, options, place_of};
 use super::seeds::Seeds;
 use super::{AssignmentError, AssignmentProblem, MAX_SEEDS, Points, Stay, When};
+use crate::recording::{Recorder, RunError, Verification, verify_with_robots};
+use crate::run::{Log, Script};
+use crate::simulation::{RobotId, StandingRobots};
+use crate::tour::{MAX_TICKS, TourConfig};
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{Coordinates, RobotKind, WrittenCoordinate};
 use motion_lab_core::random::Seed;
 use motion_lab_core::text_position::Position;
 use motion_lab_core::worlds::{Resident, World, begin_of, ron_in_words};
-use motion_lab_sim::recording::{Recorder, RunError, Verification, verify_with_robots};
-use motion_lab_sim::run::{Log, Script};
-use motion_lab_sim::simulation::{RobotId, StandingRobots};
-use motion_lab_sim::tour::{MAX_TICKS, TourConfig};
 
 /// An assignment file as written. It names its world and does not hold it.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,7 +87,7 @@ impl AssignmentFile {
     }
 
     /// [`in_world`](Self::in_world) for a world with kinds of robots that a program added: `add` adds them to each run
-    /// that grading begins, by [`RobotPlugin`](motion_lab_sim::simulation::RobotPlugin). A kind's description decides
+    /// that grading begins, by [`RobotPlugin`](crate::simulation::RobotPlugin). A kind's description decides
     /// how far a configuration is from the goal and which way is forward; without one, coordinates are compared one by
     /// one.
     ///
