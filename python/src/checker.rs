@@ -55,7 +55,8 @@ pub(crate) use with_checker;
 /// answers into an array of your own, C-ordered, of exactly their shape and dtype, that shares no memory with the
 /// questions. Writing into an array while a call of another thread reads it is a race, as in numpy.
 ///
-/// Touching is contact. Angles are the same a full turn on. No answer depends on the number of threads.
+/// Touching is contact. Beyond 1e60 m, where squares of squares are no numbers, the answers are safe: contact, nothing
+/// proven, and no witness. Angles are the same a full turn on. No answer depends on the number of threads.
 ///
 /// Every question raises ValueError for an array of another shape and for what is no number, and ConfigurationError,
 /// which names the row, for a configuration that is not finite.
