@@ -13,8 +13,8 @@ use support::console::be_quiet;
 use support::{gate, interrupt};
 
 use commands::{
-    bare, capture, completions, describe, diff, export, grade, info, plan, plot, query, record, replay, script, stats,
-    sweep, verify, world,
+    bare, capture, completions, describe, diff, export, grade, info, link, plan, plot, query, record, replay, script,
+    stats, sweep, verify, world,
 };
 
 /// Examples and the exit codes, as `--help` and `docs/cli.md` list them.
@@ -66,6 +66,7 @@ enum CliCommand {
     Stats(stats::StatsArgs),
     Plot(plot::PlotArgs),
     Info(info::Info),
+    Link(link::LinkArgs),
     Query(query::Query),
     Plan(Box<plan::PlanArgs>),
     Capture(Box<capture::Capture>),
@@ -122,6 +123,7 @@ impl Cli {
             Some(CliCommand::Diff(diff)) => diff.run(data),
             Some(CliCommand::Export(export)) => export.run(data),
             Some(CliCommand::Info(info)) => info.run(data),
+            Some(CliCommand::Link(link)) => link.run(data),
             Some(CliCommand::Stats(stats)) => stats.run(data),
             Some(CliCommand::Plan(plan)) => plan.run(data),
             Some(CliCommand::Plot(plot)) => plot.run(data),

@@ -8,6 +8,7 @@ pub(crate) mod diff;
 pub(crate) mod export;
 pub(crate) mod grade;
 pub(crate) mod info;
+pub(crate) mod link;
 #[cfg(feature = "window")]
 pub(crate) mod open;
 pub(crate) mod plan;

@@ -4,6 +4,7 @@ pub mod columns;
 pub mod diff;
 pub mod digests;
 pub mod driving;
+pub mod link;
 #[cfg(target_os = "linux")]
 pub mod progress;
 pub mod record;

@@ -13,6 +13,7 @@ use motion_lab::web::Link;
 use crate::cli::support::choices;
 use crate::cli::support::input::{is_dash, open};
 use crate::cli::support::output::write_text;
+use crate::cli::support::site::Site;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
 
@@ -35,10 +36,8 @@ pub struct Report {
     /// The form. [default: by the output's name; html for `-`]
     #[arg(long)]
     format: Option<PageForm>,
-    /// The address of the lab's page, for links: where `assets/web/build` was put. By default where `assets/web/serve`
-    /// shows it.
-    #[arg(long, value_name = "URL", default_value = "http://localhost:8000/", value_parser = page_address)]
-    site: String,
+    #[command(flatten)]
+    site: Site,
     /// The colours of the figure.
     #[arg(long, value_parser = choices::theme(), default_value = "light")]
     theme: Theme,
@@ -90,15 +89,6 @@ fn number(cell: Option<&RowValue>) -> Option<f64> {
         Some(RowValue::Whole(n)) => Some(*n as f64),
         Some(RowValue::Number(x)) => Some(*x),
         _ => None,
-    }
-}
-
-/// The address of a page, to which a query can be added.
-fn page_address(text: &str) -> Result<String, String> {
-    let rest = text.strip_prefix("http://").or_else(|| text.strip_prefix("https://"));
-    match rest {
-        Some(rest) if !rest.is_empty() && !rest.contains(['?', '#']) => Ok(text.to_owned()),
-        _ => Err("write http:// or https:// and the rest, without ? and #".into()),
     }
 }
 
@@ -287,7 +277,7 @@ impl Report {
         let figure = gathered.figure().svg(&paper);
         let text = match form {
             PageForm::Svg => figure,
-            PageForm::Html => gathered.page(&self.table, &figure, &self.site),
+            PageForm::Html => gathered.page(&self.table, &figure, &self.site.site),
         };
         write_text(Some(&self.output), &text, data)?;
         Ok(Outcome::Done)
