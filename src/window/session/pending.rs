@@ -2,11 +2,12 @@
 
 use bevy::prelude::*;
 
-use crate::window::ui::{CockpitRobot, TRAIL, footprint_at, joints, turned};
+use crate::window::ui::{CockpitRobot, ShownClearance, TRAIL, footprint_at, joints, turned};
 use motion_lab_core::collision::{Collision as _, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Coordinates};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::robots::AnyRobot;
+use motion_lab_sim::anatomy::held_before;
 use motion_lab_sim::run::{Event, RobotInput, Script, WorldChange};
 use motion_lab_sim::simulation::{PendingInput, Playback, RobotView, Roster, Transport, WorldScene};
 
@@ -18,8 +19,8 @@ pub struct Said {
     pub in_full: String,
     /// The tip of an arm.
     pub tip: Option<Point2>,
-    /// The footprint's distance from the obstacles, metres.
-    pub clearance: Option<f64>,
+    /// The footprint's distance from the obstacles.
+    pub clearance: Option<ShownClearance>,
 }
 
 /// The world that a robot is in, as it meets it.
@@ -28,10 +29,18 @@ pub fn scene_of<'w>(world: &'w World, robot: &RobotView) -> Option<&'w Scene> {
     Some(&world.get::<WorldScene>(inhabited)?.0)
 }
 
+/// How near a robot is to what its motion of this tick met, if its clearance, metres, is known.
+pub fn clearance(world: &World, robot: &RobotView, metres: f64) -> ShownClearance {
+    let scene = scene_of(world, robot).filter(|_| robot.in_contact);
+    let held_before = scene.and_then(|scene| held_before(scene, &robot.footprint)).map(str::to_owned);
+    ShownClearance { metres, held_before }
+}
+
 /// One of the lab's robots at these coordinates.
 pub fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
     let there = footprint_at(&robot.kind, robot.model, to);
     let clearance = scene_of(world, robot).zip(there).map(|(scene, there)| scene.distance(&there));
+    let clearance = clearance.map(|metres| ShownClearance { metres, held_before: None });
     let (in_full, q) = match AnyRobot::of_kind(&robot.kind, to)?.1 {
         AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),

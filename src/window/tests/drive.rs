@@ -74,11 +74,19 @@ fn rusty_is_driven_into_a_wall_and_stops_a_radius_short_of_it() {
     let clearance = trail.expect("noted").clearance;
     assert!((1e-5..=1e-4).contains(&clearance), "{clearance}");
     assert_eq!(rusty.footprint.parts()[0].placed().radius(), 0.11);
+    // it is not said to be at a distance that reads as none, but held before what is named on the paper
+    let words = || super::safe::words(&harness).into_iter().map(|(text, ..)| text);
+    let held = words().find(|text| text.starts_with("held ")).expect("it says so");
+    let (mm, name) = held["held ".len()..].split_once("\u{a0}mm before ").expect("a distance and a name");
+    assert!((mm.parse::<f64>().unwrap() - 1e3 * clearance).abs() <= 0.0051, "{held}: {clearance}");
+    assert!(words().any(|text| text == name), "{held}");
+    assert!(!words().any(|text| text.starts_with("clearance: ")));
     // backing away is free again
     harness.key_up(Key::ArrowUp);
     harness.key_down(Key::ArrowDown);
     harness.run_steps(40);
     assert!(!harness.state().robot(0).in_contact);
+    harness.get_by_label_contains("clearance: ");
     harness.key_up(Key::ArrowDown);
     harness.step();
     harness.key_press(Key::Escape);

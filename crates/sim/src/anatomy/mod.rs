@@ -30,7 +30,7 @@ mod thickness;
 mod twin;
 mod words;
 
-pub use contact::touching_items;
+pub use contact::{held_before, touching_items};
 pub use feature::Feature;
 pub use frozen::{Anatomy, LENGTHS, THICK_LINKS, Tab, WorldSource};
 pub use nearest::{NearestPair, TIE, nearest_pairs};
