@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::window::ui::{CockpitRobot, ShownClearance, TRAIL, footprint_at, joints, turned};
+use crate::window::ui::{CockpitRobot, Interface, ShownClearance, TRAIL, footprint_at, joints, turned};
 use motion_lab_core::collision::{Collision as _, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Coordinates};
 use motion_lab_core::geometry::Point2;
@@ -51,14 +51,23 @@ pub fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
     Some(Said { readout: q, in_full, tip, clearance })
 }
 
-/// Whether the run is paused with a change of a world, or an input to one of its robots, due at the next tick.
+/// The inputs that are asked for by the next tick. What is due then as a run is gone through again, or as a path is
+/// played, nobody asks for: it is the run's.
+fn asked(world: &World) -> &[Event] {
+    let (transport, pending) = (world.resource::<Transport>(), world.resource::<PendingInput>());
+    let (next, events) = (transport.tick() + 1, &pending.script().events);
+    let has_more = transport.frontier() >= next || events.last().is_some_and(|event| event.tick > next + 1);
+    let is_own = has_more || world.resource::<Interface>().0.plan.plays_alone(events);
+    if is_own { &[] } else { pending.due(next) }
+}
+
+/// Whether the run is paused with a change of a world due at the next tick, or an input to one of its robots asked for.
 pub fn waits(world: &World, name: &str, robots: &[CockpitRobot]) -> bool {
     let transport = world.resource::<Transport>();
     let (tick, playback) = (transport.tick(), transport.playback);
-    let pending = world.resource::<PendingInput>();
     let is_here = |event: &Event| robots.iter().any(|robot| robot.name == event.robot);
-    playback == Playback::Paused
-        && (pending.due(tick + 1).iter().any(is_here) || pending.due_changes(tick + 1).iter().any(|c| c.world == name))
+    let is_due = || world.resource::<PendingInput>().due_changes(tick + 1).iter().any(|change| change.world == name);
+    playback == Playback::Paused && (asked(world).iter().any(is_here) || is_due())
 }
 
 /// The doors of a world that open or close with the next tick of a paused run.
@@ -77,8 +86,7 @@ pub fn doors(world: &World, name: &str) -> Vec<(String, bool)> {
 
 /// The coordinates that an input asks of a robot by the next tick.
 pub fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
-    let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick() + 1);
-    due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
+    asked(world).iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
         RobotInput::MoveTo(to) | RobotInput::Teleport(to) => Some(to.iter().map(|c| c.value()).collect()),
         _ => None,
     })

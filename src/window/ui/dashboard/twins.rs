@@ -76,7 +76,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &FrameC
     let is_asked = asked.is_some();
     let words = if robot.is_arm { "One tip, two elbows" } else { "One place, two headings" };
     // the way would begin where a waiting input takes the arm away from
-    let waits = robot.is_arm && robot.target.is_some() && !is_asked;
+    let waits = robot.is_arm && robot.target.is_some() && cockpit.waiting && !is_asked;
     let button = LabButton::new(words).enabled(other.is_some() && !waits);
     let button = if robot.is_arm { button } else { button.selected(is_asked) };
     let show = |ui: &mut Ui| {
@@ -124,7 +124,7 @@ pub fn put_where_it_teaches(model: &Dashboard, linked: &LinkedState, commands: &
         let is_bent = q.coordinates().last().is_some_and(|bend| sin(*bend).abs() >= MIN_BEND);
         is_bent && way.is_some_and(|way| matches!(way.verdict, EdgeVerdict::Free { .. }))
     };
-    let is_still = !model.playing || robot.manual;
+    let is_still = !model.playing || robot.manual && !robot.along_path && model.tick == model.frontier;
     if is_still && robot.target.is_none() && teaches(&now) {
         return;
     }
