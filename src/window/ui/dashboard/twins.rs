@@ -94,7 +94,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &FrameC
         (None, Some(other)) if is_asked => {
             let there = in_the_way(&state.linked.checker_of(&cockpit.atlas, &fitted), &other);
             let there = there.map_or_else(|| "free there too".to_owned(), |name| format!("there it overlaps {name}"));
-            format!("{there}; no single input leads there")
+            format!("{there}; its wheels can't turn it on the spot")
         }
         (None, Some(_)) => String::new(),
     };
