@@ -6,11 +6,13 @@ mod crowd_views;
 #[cfg(feature = "window")]
 pub mod desktop;
 mod error;
+mod input_order;
 mod lab_systems;
 mod modifiers;
 mod pace;
 mod put_robot;
 mod run_files;
+mod screen;
 mod session;
 // two attributes, because the lints recognise only a bare `cfg(test)`
 #[cfg(test)]
@@ -24,7 +26,7 @@ use bevy::prelude::*;
 use bevy::render::camera::CameraRenderGraph;
 use bevy::window::{RequestRedraw, WindowResizeConstraints, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
-use bevy_egui::{EguiContext, EguiGlobalSettings, EguiPlugin, EguiPrimaryContextPass, PrimaryEguiContext, egui};
+use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
 use background::Background;
 pub use lab_systems::LabSystems;
@@ -75,8 +77,7 @@ pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> 
     #[cfg(feature = "window")]
     desktop::add_settings(&mut app);
     add_plugins(&mut app, window);
-    app.add_plugins((EguiPlugin::default(), SessionPlugin, modifiers::ModifiersPlugin))
-        .insert_resource(EguiGlobalSettings { auto_create_primary_context: false, ..default() })
+    app.add_plugins((screen::ScreenPlugin, SessionPlugin))
         .add_message::<SessionCommand>()
         .add_systems(Startup, add_camera)
         .add_systems(Update, wake.after(session::gather))

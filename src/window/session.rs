@@ -204,7 +204,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         readout: robot.configuration.clone(),
         in_full: robot.configuration_in_full.clone(),
         tip: robot.tip,
-        clearance: trail.map(|t| t.clearance),
+        clearance: trail.map(|t| pending::clearance(world, robot, t.clearance)),
     };
     let Said { readout, in_full, tip, clearance } = next.unwrap_or_else(now);
     CockpitRobot {
@@ -224,7 +224,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
         // a flash is shown while the run plays; at rest, red is this very tick's contact
         flash: if playing { robot.flash > 0 } else { robot.in_contact },
         contacts: robot.contacts,
-        clearance: clearance.filter(|clearance| clearance.is_finite()),
+        clearance: clearance.filter(|clearance| clearance.metres.is_finite()),
         manual: robot.manual,
         along_path: robot.manual
             && world.resource::<Interface>().0.plan.plays_alone(&world.resource::<PendingInput>().script().events),

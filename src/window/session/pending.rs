@@ -2,11 +2,12 @@
 
 use bevy::prelude::*;
 
-use crate::window::ui::{CockpitRobot, TRAIL, footprint_at, joints, turned};
+use crate::window::ui::{CockpitRobot, Interface, ShownClearance, TRAIL, footprint_at, joints, turned};
 use motion_lab_core::collision::{Collision as _, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Coordinates};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::robots::AnyRobot;
+use motion_lab_sim::anatomy::held_before;
 use motion_lab_sim::run::{Event, RobotInput, Script, WorldChange};
 use motion_lab_sim::simulation::{PendingInput, Playback, RobotView, Roster, Transport, WorldScene};
 
@@ -18,8 +19,8 @@ pub struct Said {
     pub in_full: String,
     /// The tip of an arm.
     pub tip: Option<Point2>,
-    /// The footprint's distance from the obstacles, metres.
-    pub clearance: Option<f64>,
+    /// The footprint's distance from the obstacles.
+    pub clearance: Option<ShownClearance>,
 }
 
 /// The world that a robot is in, as it meets it.
@@ -28,10 +29,18 @@ pub fn scene_of<'w>(world: &'w World, robot: &RobotView) -> Option<&'w Scene> {
     Some(&world.get::<WorldScene>(inhabited)?.0)
 }
 
+/// How near a robot is to what its motion of this tick met, if its clearance, metres, is known.
+pub fn clearance(world: &World, robot: &RobotView, metres: f64) -> ShownClearance {
+    let scene = scene_of(world, robot).filter(|_| robot.in_contact);
+    let held_before = scene.and_then(|scene| held_before(scene, &robot.footprint)).map(str::to_owned);
+    ShownClearance { metres, held_before }
+}
+
 /// One of the lab's robots at these coordinates.
 pub fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
     let there = footprint_at(&robot.kind, robot.model, to);
     let clearance = scene_of(world, robot).zip(there).map(|(scene, there)| scene.distance(&there));
+    let clearance = clearance.map(|metres| ShownClearance { metres, held_before: None });
     let (in_full, q) = match AnyRobot::of_kind(&robot.kind, to)?.1 {
         AnyConfiguration::T2(q) => (format!("{q:?}"), q.to_string()),
         AnyConfiguration::T3(q) => (format!("{q:?}"), q.to_string()),
@@ -42,14 +51,23 @@ pub fn next(world: &World, robot: &RobotView, to: &[f64]) -> Option<Said> {
     Some(Said { readout: q, in_full, tip, clearance })
 }
 
-/// Whether the run is paused with a change of a world, or an input to one of its robots, due at the next tick.
+/// The inputs that are asked for by the next tick. What is due then as a run is gone through again, or as a path is
+/// played, nobody asks for: it is the run's.
+fn asked(world: &World) -> &[Event] {
+    let (transport, pending) = (world.resource::<Transport>(), world.resource::<PendingInput>());
+    let (next, events) = (transport.tick() + 1, &pending.script().events);
+    let has_more = transport.frontier() >= next || events.last().is_some_and(|event| event.tick > next + 1);
+    let is_own = has_more || world.resource::<Interface>().0.plan.plays_alone(events);
+    if is_own { &[] } else { pending.due(next) }
+}
+
+/// Whether the run is paused with a change of a world due at the next tick, or an input to one of its robots asked for.
 pub fn waits(world: &World, name: &str, robots: &[CockpitRobot]) -> bool {
     let transport = world.resource::<Transport>();
     let (tick, playback) = (transport.tick(), transport.playback);
-    let pending = world.resource::<PendingInput>();
     let is_here = |event: &Event| robots.iter().any(|robot| robot.name == event.robot);
-    playback == Playback::Paused
-        && (pending.due(tick + 1).iter().any(is_here) || pending.due_changes(tick + 1).iter().any(|c| c.world == name))
+    let is_due = || world.resource::<PendingInput>().due_changes(tick + 1).iter().any(|change| change.world == name);
+    playback == Playback::Paused && (asked(world).iter().any(is_here) || is_due())
 }
 
 /// The doors of a world that open or close with the next tick of a paused run.
@@ -68,8 +86,7 @@ pub fn doors(world: &World, name: &str) -> Vec<(String, bool)> {
 
 /// The coordinates that an input asks of a robot by the next tick.
 pub fn target(world: &World, robot: &RobotView) -> Option<Coordinates> {
-    let due = world.resource::<PendingInput>().due(world.resource::<Transport>().tick() + 1);
-    due.iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
+    asked(world).iter().rev().filter(|e| e.robot == robot.name).find_map(|e| match &e.input {
         RobotInput::MoveTo(to) | RobotInput::Teleport(to) => Some(to.iter().map(|c| c.value()).collect()),
         _ => None,
     })

@@ -74,11 +74,19 @@ fn rusty_is_driven_into_a_wall_and_stops_a_radius_short_of_it() {
     let clearance = trail.expect("noted").clearance;
     assert!((1e-5..=1e-4).contains(&clearance), "{clearance}");
     assert_eq!(rusty.footprint.parts()[0].placed().radius(), 0.11);
+    // it is not said to be at a distance that reads as none, but held before what is named on the paper
+    let words = || super::safe::words(&harness).into_iter().map(|(text, ..)| text);
+    let held = words().find(|text| text.starts_with("held ")).expect("it says so");
+    let (mm, name) = held["held ".len()..].split_once("\u{a0}mm before ").expect("a distance and a name");
+    assert!((mm.parse::<f64>().unwrap() - 1e3 * clearance).abs() <= 0.0051, "{held}: {clearance}");
+    assert!(words().any(|text| text == name), "{held}");
+    assert!(!words().any(|text| text.starts_with("clearance: ")));
     // backing away is free again
     harness.key_up(Key::ArrowUp);
     harness.key_down(Key::ArrowDown);
     harness.run_steps(40);
     assert!(!harness.state().robot(0).in_contact);
+    harness.get_by_label_contains("clearance: ");
     harness.key_up(Key::ArrowDown);
     harness.step();
     harness.key_press(Key::Escape);
@@ -145,7 +153,7 @@ fn where_there_is_no_room_for_a_trailer_it_is_said() {
 
 #[test]
 fn one_thing_is_said_at_the_pointer_and_what_a_robot_in_hand_says_covers_nothing() {
-    const CLICK: &str = "Click to drive Rusty; drag its body to move it";
+    const CLICK: &str = "Click to drive Rusty; drag its body to put it elsewhere";
     let mut harness = lab(WIDE);
     pause(&mut harness);
     let paper = paper(&harness, "Apartment");
@@ -322,10 +330,33 @@ fn one_metre_to_the_left_is_driven_scored_and_tried_again() {
     harness.run_steps(3);
     assert_eq!(harness.state().robot(2).coordinates[..], [6.5, 2.5, 0.0, 0.0]);
     harness.get_by_label("goal: off by 1.00 m, 0.00 rad; 0 reversals");
+    // lifted there by its body it is not driven there, by whatever it drives afterwards
+    let body = harness.get_by_label("Hitch: its body, to be dragged").rect().center();
+    let lot = motion_lab_core::worlds::World::lot();
+    let fit = crate::window::ui::paint::canvas::fit(&motion_lab_core::picture::world(&lot), paper(&harness, "Lot"));
+    let there = body - egui::vec2(0.0, fit.px_per_metre() as f32);
+    pointer(&mut harness, body, Some(true));
+    (1..=10).for_each(|i| pointer(&mut harness, body.lerp(there, i as f32 / 10.0), None));
+    let says_put =
+        |harness: &Harness<'_, Lab>| super::safe::words(harness).iter().any(|(text, ..)| text == "put, not driven");
+    assert!(says_put(&harness), "while it is lifted");
+    pointer(&mut harness, there, Some(false));
+    tick(&mut harness);
+    harness.run_steps(3);
+    assert!(!says_put(&harness));
+    let car = harness.state().robot(2);
+    assert!(motion_lab_core::num::hypot(car.coordinates[0] - 6.5, car.coordinates[1] - 3.5) < 0.05, "{car:?}");
+    harness.get_by_label("goal: the car was put, and not driven, since; \"again\" begins anew");
+    (0..250).for_each(|_| tick(&mut harness));
+    harness.run_steps(3);
+    assert!(harness.query_by_label_contains("Reached").is_none());
+    // undone, it stands where it was
+    click(&mut harness, "Undo");
+    harness.get_by_label("goal: off by 1.00 m, 0.00 rad; 0 reversals");
 }
 
 #[test]
-fn a_car_turned_about_is_a_ghost_that_no_input_leads_to() {
+fn a_car_turned_about_is_a_ghost_that_its_wheels_do_not_lead_to() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
     bring(&mut harness, "Hitch");
@@ -339,14 +370,14 @@ fn a_car_turned_about_is_a_ghost_that_no_input_leads_to() {
         click(harness, "Step");
     };
     put(&mut harness, 6.5);
-    assert!(harness.query_by_label_contains("no single input leads there").is_none(), "on demand");
+    assert!(harness.query_by_label_contains("its wheels can't turn it on the spot").is_none(), "on demand");
     click(&mut harness, "One place, two headings");
-    harness.get_by_label_contains("free there too; no single input leads there");
+    harness.get_by_label_contains("free there too; its wheels can't turn it on the spot");
     // 1.5 m from the west curb there is no room for it, the other way about
     put(&mut harness, 1.5);
-    harness.get_by_label_contains("there it overlaps the west curb; no single input leads there");
+    harness.get_by_label_contains("there it overlaps the west curb; its wheels can't turn it on the spot");
     assert!(interface(&harness).settings.done.iter().any(|task| task == "TwoHeadings"));
     click(&mut harness, "One place, two headings");
-    assert!(harness.query_by_label_contains("no single input leads there").is_none());
+    assert!(harness.query_by_label_contains("its wheels can't turn it on the spot").is_none());
     assert_eq!(harness.state().script().events.len(), events + 2, "it is no input");
 }

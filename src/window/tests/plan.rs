@@ -211,6 +211,39 @@ fn a_path_is_played_as_a_run_and_drawn_over_it() {
 }
 
 #[test]
+fn while_a_path_plays_the_fields_say_what_the_readout_says_and_nobody_waits_for_a_drag() {
+    let mut harness = planned(WIDE);
+    play(&mut harness);
+    click(&mut harness, "Play it");
+    let mut seen = 0;
+    for frame in 0..60 {
+        // played, paused, and gone through again from where it is paused
+        match frame {
+            30 => pause(&mut harness),
+            40 => harness.key_press(Key::ArrowLeft),
+            _ => {}
+        }
+        harness.run_steps(1);
+        assert!(harness.query_by_label_contains("the drag waits").is_none(), "frame {frame}");
+        assert!(harness.query_by_label("comes with the next tick").is_none(), "frame {frame}");
+        let robot = &harness.state().app.world().resource::<ShownDashboard>().0.cockpits[0].robots[0];
+        let now = harness.state().robot(0).coordinates;
+        assert_eq!((robot.target.clone(), &robot.coordinates), (None, &now), "frame {frame}");
+        for (i, sign) in ["\u{3b8}\u{2081}", "\u{3b8}\u{2082}"].into_iter().enumerate() {
+            let field = harness.get_by_label(&format!("Reach: {sign}")).value().expect("a number");
+            let said: f64 = field.replace('\u{2212}', "-").parse().unwrap();
+            assert!((said - now[i]).abs() < 6e-4, "frame {frame}: {sign} is {said} in its field, {} on paper", now[i]);
+        }
+        seen += 1;
+    }
+    assert_eq!(seen, 60);
+    // a drag is asked for, and waits
+    drag(&mut harness, "Reach: elbow, \u{3b8}\u{2081} in radians", [0.0, -1.0]);
+    harness.get_by_label("comes with the next tick");
+    harness.get_by_label_contains("the drag waits for the next tick");
+}
+
+#[test]
 fn a_path_goes_to_a_file_and_comes_back_and_a_wrong_file_changes_nothing() {
     let mut harness = planned(WIDE);
     play(&mut harness);

@@ -95,7 +95,7 @@ fn magnified(harness: &Harness<'_, Lab>) -> (f64, Option<motion_lab_core::geomet
     interface(harness).cameras.get("Apartment").map_or((1.0, None), |camera| (camera.zoom, camera.centre))
 }
 
-fn wheel(harness: &mut Harness<'_, Lab>, at: Pos2, points: f32) {
+pub fn wheel(harness: &mut Harness<'_, Lab>, at: Pos2, points: f32) {
     pointer(harness, at, None);
     let (unit, phase, modifiers) = (egui::MouseWheelUnit::Point, egui::TouchPhase::Move, Modifiers::NONE);
     harness.event(Event::MouseWheel { unit, delta: egui::vec2(0.0, points), phase, modifiers });
@@ -103,7 +103,7 @@ fn wheel(harness: &mut Harness<'_, Lab>, at: Pos2, points: f32) {
     harness.run_steps(20);
 }
 
-fn keys(harness: &mut Harness<'_, Lab>, key: Key, times: usize) {
+pub fn keys(harness: &mut Harness<'_, Lab>, key: Key, times: usize) {
     for _ in 0..times {
         harness.key_press(key);
         harness.run_steps(2);
@@ -190,7 +190,7 @@ fn an_embedded_lab_leaves_the_wheel_to_the_page() {
     harness.run_steps(60);
     let lanes = harness.get_by_label_contains(" so far: a click goes to one").rect();
     wheel(&mut harness, lanes.center(), 240.0);
-    assert_eq!(interface(&harness).span, None, "nor is it the time line's");
+    assert_eq!(interface(&harness).span.part, None, "nor is it the time line's");
 }
 
 #[test]
@@ -343,10 +343,10 @@ fn the_wheel_shows_less_of_the_time() {
     assert!(end > 200, "{end}");
     keys(&mut harness, Key::ArrowLeft, 1);
     let lanes = harness.get_by_label_contains(" so far: a click goes to one").rect();
-    assert_eq!(interface(&harness).span, None);
+    assert_eq!(interface(&harness).span.part, None);
     // at the right end, so that the last tick stays
     wheel(&mut harness, lanes.right_center(), 240.0);
-    let span = interface(&harness).span.unwrap();
+    let span = interface(&harness).span.part.unwrap();
     assert_eq!(span.to, end);
     let share = (span.to - span.from) as f64 * std::f64::consts::E / end as f64;
     assert!((share - 1.0).abs() < 0.05, "240 points are e times less: {span:?} of {end}");
@@ -355,7 +355,7 @@ fn the_wheel_shows_less_of_the_time() {
     let tick = harness.state().transport().tick;
     assert!(tick.abs_diff(span.from) <= 8, "{tick} {span:?}");
     wheel(&mut harness, lanes.center(), -600.0);
-    assert_eq!(interface(&harness).span, None);
+    assert_eq!(interface(&harness).span.part, None);
 }
 
 #[test]

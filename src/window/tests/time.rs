@@ -1,5 +1,6 @@
 //! Moving through time: scrubbing, seeds, loops, speeds, frame rates.
 
+use super::screen::{keys, wheel};
 use super::*;
 
 #[test]
@@ -277,5 +278,34 @@ fn the_transport_bar_fits_the_narrowest_phone() {
     for name in ["Back", "Pause", "Step", "Next contact", "More"] {
         let rect = lab(PHONE).get_by_label(name).rect();
         assert!(rect.width() >= 44.0 && rect.height() >= 44.0, "{name}: {rect:?}");
+    }
+}
+
+#[test]
+fn the_wheel_keeps_the_time_under_the_pointer_wherever_the_paused_run_stands() {
+    for share in [0.2, 0.5, 0.8] {
+        let mut harness = lab(WIDE);
+        keys(&mut harness, Key::Period, 6);
+        harness.run_steps(120);
+        pause(&mut harness);
+        let end = harness.state().transport().tick;
+        assert!(end > 500, "{end}");
+        let lanes = harness.get_by_label_contains(" so far: a click goes to one").rect();
+        let at = pos2(lanes.left() + share * lanes.width(), lanes.center().y);
+        let under = f64::from(share) * end as f64;
+        // near and nearer, and half the way back
+        for points in [240.0, 240.0, -240.0] {
+            wheel(&mut harness, at, points);
+            let span = interface(&harness).span.part.unwrap();
+            let now = span.from as f64 + f64::from(share) * (span.to - span.from) as f64;
+            assert!((now - under).abs() < 2.0, "{under} of {end} was under the pointer, {now} is: {span:?}");
+        }
+        assert!(!interface(&harness).span.part.unwrap().holds(end), "the run stands beside it");
+        assert_eq!(harness.state().transport().tick, end, "the wheel goes nowhere");
+        // the arrow keys go on from where the run stands, and show it
+        harness.get_by_label("time line, in ticks").focus();
+        keys(&mut harness, Key::ArrowLeft, 1);
+        assert_eq!(harness.state().transport().tick, end - 1);
+        assert!(interface(&harness).span.part.unwrap().holds(end - 1));
     }
 }

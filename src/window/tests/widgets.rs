@@ -2,6 +2,7 @@
 
 mod fingers;
 mod layout;
+mod lesson_ends;
 mod lessons;
 mod numbers;
 mod tasks_done;

@@ -2,6 +2,7 @@
 
 use super::atlas::{FIRST_CELL, Mode};
 use super::dashboard::hand::drive;
+use super::dashboard::twins;
 use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, PlanState, UiState};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_sim::anatomy::Tab;
@@ -33,9 +34,14 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
     }
     match widget {
         Widget::Dashboard => {
+            // what was under way before ends no lesson
+            state.twin = None;
             let has = |kind| model.cockpits.iter().position(|c| c.robots.iter().any(|robot| robot.kind == kind));
             if let Some(world) = kind_of(task).and_then(has) {
                 state.settings.world = world as u32;
+            }
+            if task == HintTask::TwoElbows {
+                twins::put_where_it_teaches(model, &state.linked, commands);
             }
             // there has to be something to drag back over
             if task == HintTask::DriveOn && model.frontier < MIN_PAST && !model.playing {
@@ -62,6 +68,24 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
         }
         Widget::Plan => state.plan = PlanState::default(),
     }
+}
+
+/// What a lesson that has just been done taught, with the reader's own numbers where it is about one state of a robot.
+pub fn learnt(lesson: Lesson, model: &Dashboard, state: &UiState) -> String {
+    let own = match lesson.task {
+        HintTask::TwoElbows => twins::both_of(RobotKind::REACH, model, state),
+        HintTask::TwoHeadings => twins::both_of(RobotKind::HITCH, model, state),
+        HintTask::Held => {
+            let robots = model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
+            let of_rover = robots.filter(|robot| robot.kind == RobotKind::RUSTY.name).find_map(|robot| {
+                let before = robot.clearance.as_ref()?;
+                before.held_before.as_ref().map(|_| before.words(0.0))
+            });
+            of_rover.map(|held| format!("It is {held}: its next step would touch, and its clearance never comes to 0."))
+        }
+        _ => None,
+    };
+    own.unwrap_or_else(|| lesson.learnt().to_owned())
 }
 
 /// The kind of the robot that a lesson of the dashboard is about.

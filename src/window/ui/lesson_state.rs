@@ -9,6 +9,8 @@ pub struct LessonState {
     pub lesson: Lesson,
     /// The seconds that it took, once it has been done.
     pub took: Option<f64>,
+    /// What was learnt, once it has been done.
+    pub learnt: String,
     /// The clock at its first frame, seconds.
     began: Option<f64>,
     /// Whether its widget has been made ready.
@@ -20,17 +22,19 @@ pub struct LessonState {
 impl LessonState {
     /// The lesson at its beginning.
     pub fn begun(lesson: Lesson) -> Self {
-        LessonState { lesson, took: None, began: None, is_ready: false, was_done: true }
+        LessonState { lesson, took: None, learnt: String::new(), began: None, is_ready: false, was_done: true }
     }
 
-    /// Takes in what was done in a frame, by `now` in seconds.
-    pub fn see(&mut self, done: &[HintTask], now: f64) {
+    /// Takes in what was done in a frame, by `now` in seconds. Returns whether that ended it.
+    pub fn see(&mut self, done: &[HintTask], now: f64) -> bool {
         let began = *self.began.get_or_insert(now);
         let is_done = done.contains(&self.lesson.task);
-        if is_done && !self.was_done && self.took.is_none() {
+        let ends = is_done && !self.was_done && self.took.is_none();
+        if ends {
             self.took = Some(now - began);
         }
         self.was_done = is_done;
+        ends
     }
 }
 
@@ -45,10 +49,10 @@ mod tests {
         assert_eq!(under_way.took, None, "it was so from the start");
         under_way.see(&[HintTask::Touch], 12.0);
         assert_eq!(under_way.took, None, "another task");
-        under_way.see(&[HintTask::Touch, HintTask::Near], 17.5);
+        assert!(under_way.see(&[HintTask::Touch, HintTask::Near], 17.5), "it ends");
         assert_eq!(under_way.took, Some(7.5));
         under_way.see(&[], 20.0);
-        under_way.see(&[HintTask::Near], 30.0);
+        assert!(!under_way.see(&[HintTask::Near], 30.0), "once");
         assert_eq!(under_way.took, Some(7.5), "the first time counts");
     }
 }

@@ -40,7 +40,7 @@ pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingExercise;
 pub(crate) use dashboard::hand::arm::{joints, turned};
 pub(crate) use dashboard::twin_state::AskedTwin;
-pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard};
+pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard, ShownClearance};
 pub(crate) use lab::lab;
 pub(crate) use lesson_state::LessonState;
 pub(crate) use paint::frame_colours::FrameColours;

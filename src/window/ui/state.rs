@@ -6,7 +6,7 @@ use bevy_egui::egui::Rect;
 
 use super::atlas::Mode;
 use super::paint::camera::Camera;
-use super::time::span::TickSpan;
+use super::time::span::ShownSpan;
 use super::{AtlasState, CockpitRobot, ParkingExercise, Settings};
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Shape};
 use motion_lab_core::picture::{Role, Theme};
@@ -45,8 +45,8 @@ pub struct UiState {
     pub crowd: super::CrowdState,
     /// What part of each world the dashboard shows, by the world's name.
     pub cameras: BTreeMap<String, Camera>,
-    /// The part of the run that the time line shows; `None` for all of it.
-    pub span: Option<TickSpan>,
+    /// The part of the run that the time line shows.
+    pub span: ShownSpan,
     /// Whether the dashboard's panes are more than fit the window, so that the wheel scrolls them.
     pub scrolls: bool,
     /// Whether the picture in front fills the window.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::lesson::learnt;
 use super::{Command, Dashboard, SessionCommand, UiState};
 use crate::window::ui::atlas::FIRST_CELL;
 use crate::window::ui::plan::PlanStage;
@@ -33,8 +34,11 @@ pub fn tick_off(model: &Dashboard, state: &mut UiState, commands: &[Command], no
     done.extend(commands.iter().flat_map(|command| asked(command, model, is_sent, has_lost_wall)));
     done.extend(shown(model, state));
     done.append(&mut state.plan.tasks_done);
-    if let Some(lesson) = &mut state.lesson {
-        lesson.see(&done, now);
+    if let Some(mut under_way) = state.lesson.take() {
+        if under_way.see(&done, now) {
+            under_way.learnt = learnt(under_way.lesson, model, state);
+        }
+        state.lesson = Some(under_way);
     }
     done.into_iter().for_each(|task| state.settings.tick_off(task));
 }

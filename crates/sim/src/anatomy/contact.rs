@@ -47,6 +47,13 @@ pub fn touching_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
     items
 }
 
+/// The obstacle that holds a footprint, which is at most a millimetre off it and does not touch it: its next step
+/// would. `None` where nothing is that near, and where it touches something.
+pub fn held_before<'a>(scene: &'a Scene, footprint: &Footprint) -> Option<&'a str> {
+    let nearest = scene.witness(footprint).filter(|w| w.dist > 0.0 && w.dist <= HELD)?;
+    scene.obstacle_name(nearest.obstacle)
+}
+
 /// The side of a contact that is farther from the footprint: words there hide neither.
 fn away_from(footprint: &Footprint, at: Point2) -> Anchor {
     let Some(off) = footprint.bounds().map(|bounds| at - bounds.centre()) else { return Anchor::Above };
@@ -107,6 +114,9 @@ mod tests {
         // half a tenth of a millimetre from the left box, as a rover is that drove against it
         let held = touching_items(&scene, &disc(2.5, 0.5 - 5e-5));
         assert_eq!(told(&held).0.len(), 3);
+        assert_eq!(held_before(&scene, &disc(2.5, 0.5 - 5e-5)), Some("the left box"));
+        let others = [disc(2.5, 0.45), disc(2.5, 0.5 - 2e-3), disc(2.5, 0.5), disc(2.5, 0.6)];
+        assert!(others.iter().all(|other| held_before(&scene, other).is_none()), "far off, touching, and within");
         // between both boxes and into them
         let both = touching_items(&scene, &disc(2.5, 0.6));
         let (ids, names) = told(&both);

@@ -27,6 +27,15 @@ pub fn twin(robot: &AnyRobot, q: &AnyConfiguration) -> Option<AnyConfiguration> 
     }
 }
 
+/// Both configurations at the position of `q` in words, as [`twin`] finds the other: `(0.72, −0.25) and (0.48, 0.25)`.
+pub fn both_configurations(robot: &AnyRobot, q: &AnyConfiguration) -> Option<String> {
+    let said = |q: &AnyConfiguration| {
+        let angles: Vec<String> = q.coordinates().iter().map(|x| figure(*x, 2)).collect();
+        format!("({})", angles.join(", "))
+    };
+    Some(format!("{} and {}", said(&twin(robot, q)?), said(q)))
+}
+
 /// The name of what a robot touches at `q`; `None` where it is free.
 pub fn in_the_way(checker: &Checker<AnyRobot>, q: &AnyConfiguration) -> Option<String> {
     let touched = checker.scene().touched(&checker.robot().footprint(q));
@@ -97,6 +106,13 @@ mod tests {
         assert!((uneven.reference(&other) - uneven.reference(&at(0.3, 1.1))).norm() < 1e-12 && other != at(0.3, 1.1));
         assert_eq!([0.0, PI].map(|th2| twin(&arm, &at(0.4, th2))), [None, None]);
         assert_eq!(twin(&AnyRobot::Reach3(Reach::redundant()), &at(0.3, 1.1)), None);
+    }
+
+    #[test]
+    fn both_configurations_are_said_with_two_decimals() {
+        let arm = *bench().robot();
+        assert_eq!(both_configurations(&arm, &at(0.3, 1.1)).unwrap(), "(1.40, \u{2212}1.10) and (0.30, 1.10)");
+        assert_eq!(both_configurations(&arm, &at(0.3, 0.0)), None);
     }
 
     #[test]

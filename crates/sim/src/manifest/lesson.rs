@@ -37,14 +37,39 @@ impl Lesson {
 
     /// Its words.
     pub fn text(self) -> &'static str {
-        let hint: Option<&Hint> = self.widget.text().hints.iter().find(|hint| hint.task == self.task);
-        hint.map_or("", |hint| &hint.text)
+        self.hint().map_or("", |hint| &hint.text)
+    }
+
+    /// What it teaches, in one sentence, for its end.
+    pub fn learnt(self) -> &'static str {
+        self.hint().map_or("", |hint| &hint.learnt)
+    }
+
+    /// The lesson that follows it; `None` after the last.
+    pub fn next(self) -> Option<Lesson> {
+        Lesson::all().skip_while(|lesson| *lesson != self).nth(1)
+    }
+
+    fn hint(self) -> Option<&'static Hint> {
+        self.widget.text().hints.iter().find(|hint| hint.task == self.task)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn each_lesson_but_the_last_is_followed_by_the_next() {
+        let mut lesson = Lesson::all().next().unwrap();
+        let mut ids = vec![lesson.id()];
+        while let Some(next) = lesson.next() {
+            lesson = next;
+            ids.push(lesson.id());
+        }
+        assert_eq!(ids, Lesson::all().map(Lesson::id).collect::<Vec<_>>());
+        assert_eq!(Lesson::of("reset").unwrap().next(), Lesson::of("touch"), "on to the next widget");
+    }
 
     #[test]
     fn each_hint_is_a_lesson_with_an_id_of_its_own() {

@@ -33,6 +33,8 @@ pub struct Hint {
     pub task: HintTask,
     /// Its words.
     pub text: String,
+    /// What it teaches, in one sentence, for its end.
+    pub learnt: String,
     /// Whether it is about the arm with two links alone.
     #[serde(default)]
     pub arm: bool,
@@ -88,6 +90,12 @@ mod tests {
                 assert!(!words.trim().is_empty(), "{}", widget.id);
             }
             assert!(!widget.misconception.contains('\n') && !widget.key.is_empty() && !widget.hints.is_empty());
+            for hint in &widget.hints {
+                // a sentence or two that fit a row of the window
+                let learnt = &hint.learnt;
+                assert!(learnt.ends_with('.') && learnt.len() <= 105 && !learnt.contains('\n'), "{learnt}");
+                assert_ne!((learnt, learnt), (&hint.text, &widget.misconception));
+            }
             for entry in &widget.key {
                 assert_eq!(entry.role().name(), entry.role, "{}", widget.id);
             }

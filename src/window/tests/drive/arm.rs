@@ -69,6 +69,16 @@ fn a_focused_handle_is_nudged_and_numbers_are_typed() {
     }
     let nudged = harness.state().robot(1).coordinates;
     assert!((nudged[1] - before[1] - 0.02).abs() < 1e-5 && (nudged[0] - before[0]).abs() < 1e-5);
+    // finely where Shift was held with the key, if it is let go within the frame
+    let finely = |pressed| {
+        let (physical_key, repeat, modifiers) = (None, false, Modifiers::SHIFT);
+        Event::Key { key: Key::ArrowRight, physical_key, pressed, repeat, modifiers }
+    };
+    [true, false].into_iter().for_each(|pressed| harness.event(finely(pressed)));
+    harness.run_steps(2);
+    click(&mut harness, "Step");
+    let fine = harness.state().robot(1).coordinates;
+    assert!((fine[1] - nudged[1] + 0.002).abs() < 1e-5, "{nudged:?} {fine:?}");
     harness.get_by_label("Reach: θ₁").focus();
     harness.run_steps(2);
     harness.key_combination_modifiers(Modifiers::COMMAND, &[Key::A]);

@@ -67,7 +67,7 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
         let finely = if touched { "" } else { "; arrows turn the joint, with Shift finely, Esc lets go" };
         format!("{}{finely}", joints_to_drag(robot))
     } else if sideways {
-        "steering alone moves nothing: no input moves a car sideways".to_owned()
+        "steering alone moves nothing: driven, no car slides sideways".to_owned()
     } else if touched {
         "the pad drives, a tap beside it lets go".to_owned()
     } else {

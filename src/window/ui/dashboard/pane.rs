@@ -153,7 +153,7 @@ pub fn paper(
         let words = if robot.is_arm {
             format!("{} is moved by its joints: {}", robot.name, joints_to_drag(robot))
         } else if is_placeable(robot) {
-            format!("Click to drive {}; drag its body to move it", robot.name)
+            format!("Click to drive {}; drag its body to put it elsewhere", robot.name)
         } else {
             format!("Click to drive {}", robot.name)
         };

@@ -1,26 +1,31 @@
 //! The first thing offered beside a robot: another configuration at its position, an arm's other elbow or a car's other
 //! heading, as a ghost. The arm goes there where the straight way is free.
 
+use std::f64::consts::{PI, TAU};
+
 use bevy_egui::egui::{Label, RichText, Ui};
 
 use super::twin_state::{AskedTwin, ElbowFlip};
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, FrameColours, LinkedState, UiState};
 use motion_lab_core::collision::EdgeVerdict;
-use motion_lab_core::configuration::{AnyConfiguration, Configuration};
-use motion_lab_core::num::{greater, wrap};
+use motion_lab_core::configuration::{AnyConfiguration, Configuration, RobotKind};
+use motion_lab_core::num::{greater, sin, wrap};
 use motion_lab_core::picture::{Item, Role, footprint};
 use motion_lab_core::robots::{AnyRobot, Robot};
-use motion_lab_sim::anatomy::{SweptMotion, contact_items, in_the_way, straight_way, twin};
+use motion_lab_sim::anatomy::{SweptMotion, both_configurations, contact_items, in_the_way, straight_way, twin};
 use motion_lab_sim::manifest::HintTask;
-use motion_lab_sim::run::DT;
-use motion_lab_sim::simulation::TransportCommand;
+use motion_lab_sim::run::{DT, Quantized, RobotInput};
+use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
 
 /// The greatest rate at which a joint turns on the way, radians per second: that of the arm's tour.
 const RATE: f64 = 2.0;
 
 /// Height of the button on a narrow screen, points.
 const FINGERTIP: f32 = 44.0;
+
+/// Least sine of the elbow's angle of an arm that teaches what its twin is.
+const MIN_BEND: f64 = 0.5;
 
 /// Difference of two angles that counts as none, radians: more than the rounding of inputs.
 const SAME: f64 = 1e-4;
@@ -71,7 +76,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &FrameC
     let is_asked = asked.is_some();
     let words = if robot.is_arm { "One tip, two elbows" } else { "One place, two headings" };
     // the way would begin where a waiting input takes the arm away from
-    let waits = robot.is_arm && robot.target.is_some() && !is_asked;
+    let waits = robot.is_arm && robot.target.is_some() && cockpit.waiting && !is_asked;
     let button = LabButton::new(words).enabled(other.is_some() && !waits);
     let button = if robot.is_arm { button } else { button.selected(is_asked) };
     let show = |ui: &mut Ui| {
@@ -89,7 +94,7 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &FrameC
         (None, Some(other)) if is_asked => {
             let there = in_the_way(&state.linked.checker_of(&cockpit.atlas, &fitted), &other);
             let there = there.map_or_else(|| "free there too".to_owned(), |name| format!("there it overlaps {name}"));
-            format!("{there}; no single input leads there")
+            format!("{there}; its wheels can't turn it on the spot")
         }
         (None, Some(_)) => String::new(),
     };
@@ -103,6 +108,54 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &FrameC
             state.did.push(HintTask::TwoHeadings);
         }
     }
+}
+
+/// Puts the first arm with two links where it is free and so is the straight way to its other elbow, unless it stands
+/// there and nothing moves it: where it is, else at the first such place of a coarse grid of its joint angles. Puts it
+/// nowhere if there is none.
+pub fn put_where_it_teaches(model: &Dashboard, linked: &LinkedState, commands: &mut Vec<Command>) {
+    let mut arms = model.cockpits.iter().flat_map(|c| c.robots.iter().map(move |robot| (c, robot)));
+    let Some((cockpit, robot)) = arms.find(|(_, robot)| robot.kind == RobotKind::REACH.name) else { return };
+    let Some((fitted, now)) = modelled(robot) else { return };
+    let checker = linked.checker_of(&cockpit.atlas, &fitted);
+    let teaches = |q: &AnyConfiguration| {
+        let way = twin(&fitted, q).and_then(|other| SweptMotion::new(&checker, q, &other).ok());
+        // an elbow that is hardly bent has nearly no twin
+        let is_bent = q.coordinates().last().is_some_and(|bend| sin(*bend).abs() >= MIN_BEND);
+        is_bent && way.is_some_and(|way| matches!(way.verdict, EdgeVerdict::Free { .. }))
+    };
+    let is_still = !model.playing || robot.manual && !robot.along_path && model.tick == model.frontier;
+    if is_still && robot.target.is_none() && teaches(&now) {
+        return;
+    }
+    let steps = |count: u32| (0..count).map(move |k| (f64::from(k) + 0.5) * TAU / f64::from(count) - PI);
+    let grid = steps(24).flat_map(|th1| [1.5, -1.5, 1.0, -1.0].map(|th2| now.with(0, th1).with(1, th2)));
+    let Some(there) = std::iter::once(now).chain(grid).find(teaches) else { return };
+    let to: Option<Vec<Quantized>> = there.coordinates().iter().map(|angle| Quantized::try_new(*angle)).collect();
+    let input = |to| RobotCommand { robot: robot.name.clone(), input: RobotInput::Teleport(to) };
+    commands.push(Command::from(TransportCommand::Checkpoint));
+    commands.extend(to.map(|to| Command::from(input(to))));
+    if !model.playing {
+        commands.push(Command::from(TransportCommand::Step));
+    }
+}
+
+/// What both configurations of the first robot of this kind teach, at the position where it is.
+pub fn both_of(kind: RobotKind, model: &Dashboard, state: &UiState) -> Option<String> {
+    let mut robots = model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
+    let robot = robots.find(|robot| robot.kind == kind.name)?;
+    if let Some(AskedTwin { way: Some(way), robot: name }) = &state.twin
+        && *name == robot.name
+    {
+        return Some(format!("Two elbows have this tip, and {}.", straight_way(&way.checker, &way.sweep)));
+    }
+    let (fitted, q) = modelled(robot)?;
+    let both = both_configurations(&fitted, &q)?;
+    Some(if robot.is_arm {
+        format!("One tip, two configurations: {both}. A tip does not say where the elbow is.")
+    } else {
+        format!("One place, two configurations: {both}. A place does not say which way the car faces.")
+    })
 }
 
 /// Begins an arm's way to its other elbow if it was asked for, and sends the arm on along it, a target in each tick.

@@ -11,6 +11,35 @@ use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::atlas::Atlas;
 use motion_lab_sim::simulation::SensorView;
 
+/// A distance from the nearest obstacle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownClearance {
+    /// The distance, metres: 0 on contact, and only then.
+    pub metres: f64,
+    /// The name of the obstacle that the robot is held before, which its next step would touch.
+    pub held_before: Option<String>,
+}
+
+impl ShownClearance {
+    /// What is said of a disc of this radius, metres.
+    pub fn words(&self, radius: f64) -> String {
+        match &self.held_before {
+            Some(name) => format!("held {} before {name}", length(self.metres)),
+            None => format!("clearance: {}, of its centre {}", length(self.metres), length(self.metres + radius)),
+        }
+    }
+}
+
+/// A length, metres. One of less than a millimetre has a unit in which it is not 0.
+fn length(metres: f64) -> String {
+    match metres {
+        0.0 => "0\u{a0}m".to_owned(),
+        1e-3.. => format!("{metres:.4}\u{a0}m"),
+        5e-6.. => format!("{:.2}\u{a0}mm", 1e3 * metres),
+        _ => "less than 0.01\u{a0}mm".to_owned(),
+    }
+}
+
 /// One robot in its cockpit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CockpitRobot {
@@ -30,8 +59,8 @@ pub struct CockpitRobot {
     pub flash: bool,
     /// Contact episodes since the start.
     pub contacts: u32,
-    /// Its distance from the nearest obstacle, metres; `None` where it is not known.
-    pub clearance: Option<f64>,
+    /// Its distance from the nearest obstacle; `None` where it is not known.
+    pub clearance: Option<ShownClearance>,
     /// Whether inputs drive it, a person's or those of a path that is played.
     pub manual: bool,
     /// Whether these are of a path that is played and nothing else.
@@ -193,6 +222,22 @@ pub fn thousands(n: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_distance_reads_zero_on_contact_alone() {
+        let said = |metres, held: Option<&str>| {
+            ShownClearance { metres, held_before: held.map(str::to_owned) }.words(0.11).replace('\u{a0}', " ")
+        };
+        assert_eq!(said(0.23451, None), "clearance: 0.2345 m, of its centre 0.3445 m");
+        assert_eq!(said(0.0, None), "clearance: 0 m, of its centre 0.1100 m");
+        assert_eq!(said(4e-5, None), "clearance: 0.04 mm, of its centre 0.1100 m");
+        assert_eq!(said(1e-7, None), "clearance: less than 0.01 mm, of its centre 0.1100 m");
+        assert_eq!(said(4e-5, Some("C's bed")), "held 0.04 mm before C's bed");
+        let digits = |said: &str| said.chars().filter(char::is_ascii_digit).any(|digit| digit != '0');
+        for tiny in [1e-3, 9.9999e-4, 9.99e-5, 5e-6, 4.9e-6, f64::MIN_POSITIVE] {
+            assert!(digits(&length(tiny)), "{tiny}: {}", length(tiny));
+        }
+    }
 
     #[test]
     fn thousands_are_parted_by_commas() {

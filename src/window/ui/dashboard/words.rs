@@ -222,10 +222,15 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours) {
     if let Some(tip) = robot.tip {
         ui.label(muted(readout(&format!("tip: ({:.3}, {:.3})", tip.x, tip.y))));
     }
-    if let (Some(clearance), Some(AnyRobot::Rusty(rusty))) = (robot.clearance, robot.model) {
-        let centre = clearance + rusty.body_radius;
-        ui.label(muted(format!("clearance: {clearance:.4}\u{a0}m, of its centre {centre:.4}\u{a0}m")))
-            .on_hover_text("How far the nearest obstacle is. Other robots do not count.");
+    if let (Some(clearance), Some(AnyRobot::Rusty(rusty))) = (&robot.clearance, robot.model) {
+        let hover = match clearance.held_before {
+            Some(_) => "Its next step would touch it: a robot on wheels is held before what it drives against.",
+            None => "How far the nearest obstacle is. Other robots do not count.",
+        };
+        let row = Label::new(muted(clearance.words(rusty.body_radius)));
+        // what is below does not move when a robot touches something with a long name
+        let row = if clearance.held_before.is_some() { row.truncate() } else { row };
+        ui.add(row).on_hover_text(hover);
     }
     let mut text = format!("contacts: {}", robot.contacts);
     if robot.trailer.is_some() {

@@ -1,6 +1,6 @@
 //! The keys: one table feeds the shortcuts, the list of them, the hints on buttons and a test against clashes.
 
-use bevy_egui::egui::{EventFilter, FocusDirection, Id, InputState, Key, Modifiers, Popup, Ui};
+use bevy_egui::egui::{Event, EventFilter, FocusDirection, Id, InputState, Key, Modifiers, Popup, Ui};
 
 use motion_lab_sim::manifest::Widget;
 
@@ -262,13 +262,17 @@ pub fn pushed(input: &InputState) -> impl Iterator<Item = DriveDirection> {
 }
 
 /// How often the keys of a handle's joint were pressed in this frame: to the left counted positive, to the right
-/// negative.
+/// negative; with Shift a tenth each.
 pub fn turns(input: &InputState) -> f64 {
-    let presses = BINDINGS.iter().map(|b| match b.action {
-        Action::Held(HeldAction::Turn { left }) => (if left { 1.0 } else { -1.0 }) * input.num_presses(b.key) as f64,
-        _ => 0.0,
-    });
-    presses.sum()
+    let turn = |event: &Event| {
+        let Event::Key { key, pressed: true, modifiers, .. } = event else { return 0.0 };
+        let far = if modifiers.shift { 0.1 } else { 1.0 };
+        BINDINGS.iter().filter(|b| b.key == *key).fold(0.0, |sum, b| match b.action {
+            Action::Held(HeldAction::Turn { left }) => sum + if left { far } else { -far },
+            _ => sum,
+        })
+    };
+    input.events.iter().map(turn).sum()
 }
 
 /// Whether the key that leaves a handle was pressed in this frame.

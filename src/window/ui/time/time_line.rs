@@ -2,12 +2,12 @@
 //! wheel shows less time or more; a thumb then says which part of the run it is.
 
 use bevy_egui::egui::{
-    Align2, Rect, Response, Sense, Shape, Slider, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, pos2,
+    Align2, Rect, Response, Sense, Shape, Slider, SliderClamping, Stroke, TextStyle, Ui, WidgetInfo, WidgetType, pos2,
     text::{LayoutJob, TextWrapping},
     vec2,
 };
 
-use super::span::TickSpan;
+use super::span::{ShownSpan, TickSpan};
 use crate::window::ui::{Command, Dashboard, FrameColours};
 use motion_lab_core::num::exp;
 use motion_lab_core::picture::Role;
@@ -53,10 +53,14 @@ impl Scale {
         self.lanes.left() + self.lanes.width() * share as f32
     }
 
+    /// How far along the line this is, from 0 to 1.
+    fn share(&self, x: f32) -> f32 {
+        ((x - self.lanes.left()) / self.lanes.width()).clamp(0.0, 1.0)
+    }
+
     fn tick(&self, x: f32) -> u64 {
         let TickSpan { from, to } = self.span;
-        let share = ((x - self.lanes.left()) / self.lanes.width()).clamp(0.0, 1.0);
-        from + (f64::from(share) * to.saturating_sub(from) as f64).round() as u64
+        from + (f64::from(self.share(x)) * to.saturating_sub(from) as f64).round() as u64
     }
 }
 
@@ -99,11 +103,10 @@ pub struct TimeLine<'a> {
 impl TimeLine<'_> {
     /// Shows the line over the whole width, of the ticks `shown`, or of all. Clicking and dragging seek; so do the
     /// arrow keys while it has the focus.
-    pub fn show(&self, ui: &mut Ui, shown: &mut Option<TickSpan>, commands: &mut Vec<Command>) {
+    pub fn show(&self, ui: &mut Ui, shown: &mut ShownSpan, commands: &mut Vec<Command>) {
         let TimeLine { model, history, look, wheel } = *self;
         let end = model.frontier.max(model.tick);
-        *shown = shown.and_then(|span| span.with(model.tick, end));
-        let span = shown.unwrap_or(TickSpan { from: 0, to: end });
+        let span = shown.follow(model.tick, end, model.playing);
         // a low screen has one lane for all
         let is_short = look.narrow && ui.ctx().content_rect().height() < SHORT;
         let lanes = if is_short { vec![Lane { robot: None, name: "" }] } else { lanes(model) };
@@ -122,6 +125,8 @@ impl TimeLine<'_> {
                 let line = Slider::new(&mut tick, span.from..=span.to.max(span.from + 1))
                     .show_value(false)
                     .trailing_fill(true)
+                    // out of sight, the tick is still what the arrow keys go on from
+                    .clamping(SliderClamping::Never)
                     .step_by(1.0);
                 ui.add_enabled(end > 0, line)
             })
@@ -133,10 +138,24 @@ impl TimeLine<'_> {
         zoom(ui, &scale, end, wheel, shown);
         show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
         axis(ui, &scale, look);
-        if response.changed() && tick != model.tick && is_meant(ui) {
+        out_of_sight(ui, &scale, model.tick, response.rect, look);
+        if response.changed() && tick.min(end) != model.tick && is_meant(ui) {
             commands.push(Command::from(TransportCommand::Seek(tick.min(end))));
         }
     }
+}
+
+/// Shows an arrow in place of the handle where the present tick is before or after what is shown.
+fn out_of_sight(ui: &Ui, scale: &Scale, tick: u64, line: Rect, look: &FrameColours) {
+    if scale.span.holds(tick) {
+        return;
+    }
+    let (x, way) = if tick < scale.span.from { (line.left(), 1.0) } else { (line.right(), -1.0) };
+    let (tip, half) = (pos2(x, line.center().y), 0.5 * line.height());
+    let handle = Rect::from_two_pos(tip - vec2(2.0 * way, half), tip + vec2(way * line.height(), half));
+    ui.painter().rect_filled(handle, 0.0, look.colour(Role::Paper));
+    let corners = vec![tip, tip + vec2(way * half, -0.7 * half), tip + vec2(way * half, 0.7 * half)];
+    ui.painter().add(Shape::convex_polygon(corners, look.colour(Role::Text), Stroke::NONE));
 }
 
 /// Whether a change of the time line is to seek: a finger that goes up or down wants to scroll, and one that has not
@@ -152,7 +171,7 @@ fn is_meant(ui: &Ui) -> bool {
 
 /// Shows less time or more as the wheel turns over the lanes; what is under the pointer stays there. Where not all of
 /// the run is shown, a thumb over the lanes says which part of it is.
-fn zoom(ui: &mut Ui, scale: &Scale, end: u64, wheel: bool, shown: &mut Option<TickSpan>) {
+fn zoom(ui: &mut Ui, scale: &Scale, end: u64, wheel: bool, shown: &mut ShownSpan) {
     let over = scale.lanes.expand2(vec2(0.0, 4.0));
     // a list that is open over the lanes keeps the wheel
     if let Some(at) = ui.input(|i| i.pointer.hover_pos()).filter(|_| ui.rect_contains_pointer(over)) {
@@ -160,7 +179,7 @@ fn zoom(ui: &mut Ui, scale: &Scale, end: u64, wheel: bool, shown: &mut Option<Ti
         let wheel = if wheel { ui.input_mut(|i| std::mem::take(&mut i.smooth_scroll_delta.y)) } else { 0.0 };
         let factor = f64::from(fingers) * exp(f64::from(wheel) / 240.0);
         if factor != 1.0 {
-            *shown = scale.span.zoomed(scale.tick(at.x), factor, end);
+            shown.zoom(scale.span, f64::from(scale.share(at.x)), factor, end);
         }
     }
     if scale.span != (TickSpan { from: 0, to: end }) {

@@ -17,6 +17,9 @@ use motion_lab_sim::simulation::TransportCommand;
 /// Side of the area that takes the pointer, points: at least this, and the shorter side of the body.
 const BODY_TARGET: f32 = 28.0;
 
+/// What is said of a robot that the pointer puts elsewhere: its wheels do not turn.
+const PUT: &str = "put, not driven";
+
 /// The robot of a cockpit that is nearest to a point, at most `reach` metres away.
 pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRobot> {
     let point = Footprint::disc(at, 1e-9);
@@ -57,6 +60,7 @@ pub fn bodies<'a>(
             // where both lie over one another, the place to come is in front
             grips.insert(0, Grip { of: "where it still is", from: &robot.coordinates, footprint: &robot.footprint });
         }
+        let mut is_put = robot.target.is_some();
         for grip in grips {
             let Some(response) = grip.show(ui, robot, paper, fit) else { continue };
             let at = response.interact_pointer_pos().or(response.hover_pos());
@@ -76,13 +80,14 @@ pub fn bodies<'a>(
                 refused = put_at(cockpit, robot, to, &state.linked, commands);
                 ui.data_mut(|data| data.insert_temp(response.id.with("refused"), refused.clone()));
             }
+            is_put |= response.dragged();
             if response.drag_stopped() {
                 let last: Option<Option<Footprint>> = ui.data_mut(|data| data.remove_temp(response.id.with("refused")));
                 if let Some(text) = last.flatten().and_then(|there| why_not(cockpit, robot, &there, &state.linked)) {
                     state.say(Notice { text, is_error: false });
                 }
             }
-            let at_rest = (CursorIcon::Grab, format!("Click to drive {}, drag to move it", robot.name));
+            let at_rest = (CursorIcon::Grab, format!("Click to drive {}, drag to put it elsewhere", robot.name));
             let (cursor, words) = door.map_or(at_rest, |door| (CursorIcon::PointingHand, doors::words(door)));
             let cursor = if response.dragged() { CursorIcon::Grabbing } else { cursor };
             response.on_hover_cursor(cursor).on_hover_text(words);
@@ -91,6 +96,8 @@ pub fn bodies<'a>(
             over.extend(footprint("refused", "where it can't be", refused, Role::Goal, 0.2));
             over.extend(touching_items(&state.linked.scene_of(&cockpit.atlas), refused));
             over.extend(robots_in_the_way(cockpit, robot, refused).flat_map(named));
+        } else if is_put {
+            over.extend(label("put", PUT, &there));
         }
         if !over.is_empty() {
             let over = Picture::new("bodies", cockpit.world.bounds).with(over);
@@ -165,18 +172,22 @@ fn ghost(robot: &CockpitRobot, there: &Footprint) -> Vec<Item> {
 fn named(robot: &CockpitRobot) -> Vec<Item> {
     let there = footprint_to_come(robot);
     let mut items = footprint(&format!("in the way/{}", robot.name), &robot.name, &there, Role::Goal, 0.0);
-    if let Some(bounds) = there.bounds() {
-        let label = Drawing::Label {
-            at: Point2::new(bounds.centre().x, bounds.max.y),
-            text: robot.name.clone(),
-            anchor: Anchor::Above,
-            face: Face::Sans,
-            size_px: 12.0,
-            plate: true,
-        };
-        items.push(Item::new(format!("in the way/{}/name", robot.name), &robot.name, Role::Text, label));
-    }
+    items.extend(label(&format!("in the way/{}/name", robot.name), &robot.name, &there));
     items
+}
+
+/// These words above a footprint.
+fn label(id: &str, words: &str, over: &Footprint) -> Option<Item> {
+    let bounds = over.bounds()?;
+    let drawing = Drawing::Label {
+        at: Point2::new(bounds.centre().x, bounds.max.y),
+        text: words.to_owned(),
+        anchor: Anchor::Above,
+        face: Face::Sans,
+        size_px: 12.0,
+        plate: true,
+    };
+    Some(Item::new(id, words, Role::Text, drawing))
 }
 
 /// The area that takes the pointer on the first part of a robot; `None` if it is off the paper.

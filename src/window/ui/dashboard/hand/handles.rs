@@ -177,14 +177,14 @@ fn circle(name: &str, centre: Point2, radius: f64) -> Item {
 /// Lets the arrow keys turn a focused handle's joint: left and up counter-clockwise; with Shift a tenth as far.
 fn nudge(ui: &Ui, id: Id, robot: &CockpitRobot, link: usize, commands: &mut Vec<Command>) {
     keys::keep_arrows(ui, id);
-    let (turns, fine, lets_go) = ui.input(|i| (keys::turns(i), i.modifiers.shift, keys::leaves_handle(i)));
+    let (turns, lets_go) = ui.input(|i| (keys::turns(i), keys::leaves_handle(i)));
     if lets_go {
         ui.memory_mut(|m| m.surrender_focus(id));
     } else if turns != 0.0 {
         checkpoint(commands);
         let mut to = to_come(robot).clone();
         if let Some(angle) = to.get_mut(link) {
-            *angle = wrap(*angle + turns * NUDGE * if fine { 0.1 } else { 1.0 });
+            *angle = wrap(*angle + turns * NUDGE);
         }
         move_to(robot, &to, commands);
     }

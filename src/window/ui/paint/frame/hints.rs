@@ -1,8 +1,8 @@
 //! The first hints of a widget, and the lesson under way.
 
 use bevy_egui::egui::{
-    Color32, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, Vec2, WidgetInfo,
-    WidgetType, vec2,
+    Color32, Label, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, Vec2,
+    WidgetInfo, WidgetType, vec2,
 };
 
 use super::super::touch::worded;
@@ -110,29 +110,71 @@ pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &
     ui.add_space(4.0);
 }
 
-/// Shows the task of the lesson under way in place of the hints, and once it is done what it removes.
+/// Shows the task of the lesson under way in place of the hints, and in place of the task, once it is done, what was
+/// learnt.
 fn lesson(ui: &mut Ui, under_way: &LessonState, look: &FrameColours, state: &mut UiState) {
-    let widget = under_way.lesson.widget.text();
+    let (top, least) = (ui.cursor().top(), height_of_lesson(ui, under_way));
     rows_of_words(ui, |ui| {
-        // what is said in place of other words leaves the picture below where it is
-        let (head, role) = match under_way.took {
-            None => ("Task:".to_owned(), Role::Text),
-            Some(took) => (format!("Done in {took:.0} s:"), Role::Free),
-        };
+        let (head, role) = under_way.took.map_or(("Task:".to_owned(), Role::Text), |took| (done_in(took), Role::Free));
         ui.label(RichText::new(head).color(look.theme.colour(role)).strong());
-        let mut is_begun = task(ui, under_way.lesson.text(), under_way.took.is_some(), look).clicked();
-        // in its own widget it stands above already, or on a narrow screen below the picture
-        if under_way.took.is_some() && under_way.lesson.widget != state.widget {
-            misconception(ui, widget, look);
-        }
+        let mut is_begun = match under_way.took {
+            None => task(ui, under_way.lesson.text(), false, look).clicked(),
+            Some(_) => {
+                let learnt = RichText::new(&under_way.learnt).color(look.theme.colour(Role::Text));
+                ui.add(Label::new(learnt).wrap());
+                false
+            }
+        };
+        let next = under_way.lesson.next().filter(|_| under_way.took.is_some());
+        let goes_on = next.is_some() && ui.link("Next").on_hover_text("Begin the next task").clicked();
         is_begun |= ui.link("Again").on_hover_text("Begin this task anew").clicked();
         if ui.link("All tasks").clicked() {
             state.lesson = None;
             state.settings.show_hints(state.widget);
+        } else if let Some(next) = next.filter(|_| goes_on) {
+            state.begin(next);
         } else if is_begun {
             state.begin(under_way.lesson);
         }
     });
+    // what is said in place of other words leaves the picture below where it is
+    let missing = top + least - ui.cursor().top();
+    if missing > 0.0 {
+        ui.add_space(missing);
+    }
+}
+
+fn done_in(seconds: f64) -> String {
+    format!("Done in {seconds:.0} s:")
+}
+
+/// The height that the words of a lesson take at this width, before it is done or after, whichever is greater.
+fn height_of_lesson(ui: &Ui, under_way: &LessonState) -> f32 {
+    let (font, gap) = (TextStyle::Body.resolve(ui.style()), ui.spacing().item_spacing);
+    // a point more, for rounding
+    let width = |text: &str| {
+        ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x + gap.x + 1.0
+    };
+    let room = ui.available_width() + gap.x;
+    let words = |text: &str| {
+        let text = worded(ui, text);
+        let wrap = ui.available_width() - BOX - AFTER;
+        let lines = ui.painter().layout(text.clone(), font.clone(), Color32::PLACEHOLDER, wrap).rows.len() as u32;
+        (lines, (width(&text) + BOX + AFTER).min(room))
+    };
+    let rows = |head: &str, (lines, across): (u32, f32), links: &[&str]| {
+        let (mut rows, mut used) = (1, width(head));
+        (rows, used) = if used + across > room { (rows + lines, across) } else { (rows, used + across) };
+        for link in links.iter().map(|link| width(link)) {
+            (rows, used) = if used + link > room { (rows + 1, link) } else { (rows, used + link) };
+        }
+        rows
+    };
+    let learnt = if under_way.took.is_some() { &under_way.learnt[..] } else { under_way.lesson.learnt() };
+    let before = rows("Task:", words(under_way.lesson.text()), &["Again", "All tasks"]);
+    let after = rows(&done_in(under_way.took.unwrap_or(30.0)), words(learnt), &["Next", "Again", "All tasks"]);
+    let row = ui.text_style_height(&TextStyle::Body) + 2.0;
+    before.max(after) as f32 * (row + gap.y)
 }
 
 /// The greatest height that the hints of a widget take at this width, whatever is done of them.
