@@ -8,5 +8,6 @@ pub mod driving;
 pub mod progress;
 pub mod record;
 pub mod replay;
+pub mod sealed_digests;
 pub mod stats;
 pub mod verify;

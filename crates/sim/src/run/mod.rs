@@ -21,14 +21,14 @@ mod world_change;
 
 pub use comparison::{Comparison, Difference, DifferingSecond};
 pub use difference::SetupDifference;
-pub use digest::{Digest, RunDigest};
+pub use digest::{Digest, DigestError, RunDigest};
 pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
 pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState, seconds};
 pub use log::{DIGEST_TICKS, Log, LogKind, MAX_ROBOTS_IN_FULL, Recorded, SecondDigests};
 pub use mcap::{
     DIGEST_FORMAT_VERSION, DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES,
-    GENERATOR, LogError, LogWriter, ReadLog, TICK_NANOSECONDS,
+    GENERATOR, LogError, LogWriter, OtherRun, ReadLog, TICK_NANOSECONDS,
 };
 pub use quantized::Quantized;
 pub use recipe::{Recipe, RunInput};
