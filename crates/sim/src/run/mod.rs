@@ -6,7 +6,7 @@ mod digest;
 mod divergence;
 mod field;
 #[cfg(test)]
-mod fixture;
+pub(crate) mod fixture;
 mod frame;
 mod log;
 mod mcap;
@@ -35,6 +35,8 @@ pub use recipe::{Recipe, RunInput};
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
 #[doc(hidden)]
 pub use script_check::check_target;
-pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
+pub use script_error::{
+    MAX_CHANGED_SHAPES, MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput,
+};
 pub use stats::{LeastClearance, Quantity, RobotStats, RunStats, Series, SeriesGatherer, StatsGatherer};
 pub use world_change::{WorldChange, WorldEvent};
