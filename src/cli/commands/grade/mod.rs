@@ -21,7 +21,7 @@ use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::find_world_beside;
 use crate::cli::{Data, Failure, Outcome, say};
 use gradebook::Results;
-use graded::Graded;
+use graded::{Graded, in_one_line};
 use submissions::{Submissions, ending};
 
 /// Grade scripts and logs by running them again at every seed of an assignment
@@ -102,7 +102,7 @@ impl GradeArgs {
         let assignment = read_assignment(&self.assignment)?;
         let Submissions { graded: files, left_out } = submissions::find(&self.submissions, &self.assignment)?;
         for (file, reason) in &left_out {
-            say(format!("{}: left out: {reason}", file.display()));
+            say(format!("{}: left out: {reason}", in_one_line(&file.display().to_string())));
         }
         if form == ReportForm::Gradescope && files.len() != 1 {
             return Err(Failure::usage(
@@ -111,7 +111,8 @@ impl GradeArgs {
             ));
         }
         let names: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
-        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max("submission".len());
+        let width =
+            names.iter().map(|name| in_one_line(name).chars().count()).max().unwrap_or(0).max("submission".len());
         let (mut passed, mut is_missing) = (0, false);
         match form {
             ReportForm::Table => data.line(Graded::head(width))?,
