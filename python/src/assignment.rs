@@ -170,8 +170,9 @@ impl PyAssignment {
         self.assignment.limits().ticks
     }
 
-    /// Grade a submission by running it again at every seed: a `Run` or the path of its log, named .mcap, or a script as
-    /// `record` takes it. The frames of a run are not believed: one that is simulated otherwise is refused as forged.
+    /// Grade a submission by running it again at every seed: a `Run` or the path of its log, named .mcap, or a script
+    /// as `record` takes it. The frames of a run are not believed: one that is simulated otherwise is refused as
+    /// forged.
     ///
     /// Raises RunError for what is no script, LogError for what is no log. Ctrl+C stops it within 0.1 s, once a run was
     /// simulated again.

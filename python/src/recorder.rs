@@ -7,7 +7,7 @@ use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use motion_lab_sim::recording::{Recorder, RunError as LabRunError};
+use motion_lab_sim::recording::{FrameList, Recorder, RunError as LabRunError};
 use motion_lab_sim::run::{Log, Recipe, RobotState};
 use motion_lab_sim::tour::{ConfigError, MAX_TICKS, TourConfig};
 
@@ -253,6 +253,7 @@ impl PyRecorder {
         let run = &mut *run;
         let (ticks, robots) = (run.frame().tick, run.frame().robots.len());
         let refused = |error: LabRunError| RunError::new_err(error.to_string());
+        FrameList::try_new(run.frame(), ticks).map_err(|error| refused(error.into()))?;
         let initial = interrupt::once(py, robots, || run.seek(0).cloned())?.map_err(refused)?;
         let mut frames = Vec::new();
         let gathered = interrupt::until(py, robots, || {

@@ -6,7 +6,7 @@ use pyo3::types::PyString;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::World;
-use motion_lab_sim::recording::Recorder;
+use motion_lab_sim::recording::{FrameList, Recorder};
 use motion_lab_sim::run::{DIGEST_TICKS, Log, LogKind, Recipe, Recorded, RunDigest, RunInput, SecondDigests};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
@@ -77,8 +77,8 @@ fn world_of(given: &Bound<'_, PyAny>) -> PyResult<World> {
 /// Every rover has a range sensor of `rays` rays, 360, that reach `range` metres, 4; with 0 rays none. `frames` says
 /// whether every frame is kept, or a digest of each second; if left out, frames for at most 100 robots.
 ///
-/// The digest is that of `motion-lab record` with the same settings. Raises RunError for a run that cannot start;
-/// Ctrl+C stops it within 0.1 s.
+/// The digest is that of `motion-lab record` with the same settings. Raises RunError for a run that cannot start, and
+/// for one whose frames would take more than 4 GiB; Ctrl+C stops it within 0.1 s.
 #[pyfunction]
 #[pyo3(signature = (worlds = None, ticks = None, *, seed = None, script = None, rays = None, range = None,
     frames = None))]
@@ -106,12 +106,15 @@ pub fn record(
 /// The run of a recipe, tick by tick, until Ctrl+C.
 ///
 /// # Errors
-/// `RunError` for one that cannot start, `KeyboardInterrupt`.
+/// `RunError` for one that cannot start or whose frames take too much memory, `KeyboardInterrupt`.
 pub fn recorded(py: Python<'_>, recipe: Recipe, kind: LogKind) -> PyResult<PyRun> {
     let mut recorder = begin(py, &recipe)?.without_keyframes();
     let recipe = Recipe { config: recorder.shared_config(), ..recipe };
     let (ticks, robots) = (recipe.config.ticks, recorder.frame().robots.len());
     let initial = recorder.frame().clone();
+    if kind == LogKind::Frames {
+        FrameList::try_new(&initial, ticks).map_err(|error| RunError::new_err(error.to_string()))?;
+    }
     let mut run = RunDigest::new(&recipe, &initial);
     let (start, mut frames, mut digests) = (run.lower_half(), Vec::new(), Vec::new());
     interrupt::until(py, robots, || {

@@ -17,17 +17,17 @@ pub(super) type Scenarios = BTreeMap<String, Arc<Scenario>>;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CheckedAxis {
     pub parameter: Parameter,
-    over: Over,
+    over: Arc<Over>,
     /// The scenario of an axis of problems.
     scenario: Option<Arc<Scenario>>,
 }
 
 impl CheckedAxis {
     /// The axis, if its values fit its parameter. `scenarios` are those that the study has, by the names it gives them.
-    pub fn try_new(parameter: Parameter, over: Over, scenarios: &Scenarios) -> Result<Self, SweepProblem> {
+    pub fn try_new(parameter: Parameter, over: Arc<Over>, scenarios: &Scenarios) -> Result<Self, SweepProblem> {
         let form = parameter.form();
         let fits = matches!(
-            (&over, form),
+            (&*over, form),
             (Over::Range(..) | Over::Values(_) | Over::Steps(..) | Over::Uniform(..), ValueForm::Number(_))
                 | (Over::Range(..) | Over::Values(_), ValueForm::Whole(_))
                 | (Over::Names(_), ValueForm::Name)
@@ -37,32 +37,32 @@ impl CheckedAxis {
         if !fits {
             return Err(SweepProblem::Values { found: over.in_words(), expected: form.in_words() });
         }
-        if let Some(wrong) = over.numbers().into_iter().find(|x| !x.is_finite()) {
+        if let Some(wrong) = over.numbers().find(|x| !x.is_finite()) {
             return Err(SweepProblem::NotFinite(wrong));
         }
-        if let (ValueForm::Whole(_), Over::Values(values)) = (form, &over)
+        if let (ValueForm::Whole(_), Over::Values(values)) = (form, &*over)
             && let Some(wrong) = values.iter().find(|value| value.whole().is_none())
         {
             return Err(SweepProblem::NotWhole(wrong.real()));
         }
         let is_degrees = |number: &WrittenNumber| matches!(number, WrittenNumber::Degrees(_));
-        if form != ValueForm::Number("rad") && over.written().iter().any(is_degrees) {
+        if form != ValueForm::Number("rad") && over.written().any(|number| is_degrees(&number)) {
             return Err(SweepProblem::Degrees);
         }
-        let scenario = match &over {
+        let scenario = match &*over {
             Over::Problems(file) => {
                 let missing = || SweepProblem::Run(format!("there is no scenario {file:?}"));
                 Some(Arc::clone(scenarios.get(file).ok_or_else(missing)?))
             }
             _ => None,
         };
-        match over {
-            Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(count)),
+        match &*over {
+            Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(*count)),
             Over::Steps(from, to, _) | Over::Uniform(from, to) if !(to.real() - from.real()).is_finite() => {
                 Err(SweepProblem::Span(from.real(), to.real()))
             }
             _ if over.len() == Some(0) => Err(SweepProblem::Empty),
-            over => Ok(CheckedAxis { parameter, over, scenario }),
+            _ => Ok(CheckedAxis { parameter, over, scenario }),
         }
     }
 
@@ -73,7 +73,7 @@ impl CheckedAxis {
 
     /// The problem with this number, from 0, of an axis of problems; the last one beyond the end.
     fn problem(&self, i: u64) -> Option<NumberedProblem> {
-        let (Over::Problems(file), Some(scenario)) = (&self.over, &self.scenario) else { return None };
+        let (Over::Problems(file), Some(scenario)) = (&*self.over, &self.scenario) else { return None };
         let number = i.saturating_add(1).min(scenario.problems.len() as u64);
         let problem = scenario.problems.get(usize::try_from(number).ok()?.checked_sub(1)?)?.clone();
         Some(NumberedProblem { file: file.clone(), number, scenario: Arc::clone(scenario), problem })
@@ -85,7 +85,7 @@ impl CheckedAxis {
             return AxisValue::Problem(problem);
         }
         let at = |len: usize| usize::try_from(i).unwrap_or(usize::MAX).min(len.saturating_sub(1));
-        match &self.over {
+        match &*self.over {
             Over::Range(from, _) => self.whole(from.saturating_add(i)),
             Over::Values(values) => self.written(values[at(values.len())]),
             // the last one exactly, whatever the rounding
@@ -107,7 +107,7 @@ impl CheckedAxis {
     /// Its value in row `row` of a random sample: a function of seed, parameter and row.
     pub fn draw(&self, seed: Seed, row: u64) -> AxisValue {
         let mut stream = Stream::new(seed, &format!("sweep/{}", self.parameter.name())).at(row);
-        match (&self.over, self.len()) {
+        match (&*self.over, self.len()) {
             (Over::Uniform(from, to), _) => self.number(stream.uniform(from.real(), to.real())),
             (_, len) => self.value(stream.below(len.unwrap_or(1))),
         }
@@ -115,13 +115,13 @@ impl CheckedAxis {
 
     /// What the writer of its values may have meant by angles of more than a turn, in the first that is one.
     pub fn turns(&self) -> Option<String> {
-        match (&self.over, &self.parameter) {
+        match (&*self.over, &self.parameter) {
             (Over::Starts(starts), Parameter::Robot { kind, .. }) => {
                 let lengths = RobotKind::of(kind)?.lengths;
                 starts.iter().find_map(|start| WrittenCoordinate::all_turns_in_ron(start, lengths).next())
             }
             (over, parameter) if parameter.form() == ValueForm::Number("rad") => {
-                over.written().into_iter().find_map(WrittenNumber::turns)
+                over.written().find_map(WrittenNumber::turns)
             }
             _ => None,
         }

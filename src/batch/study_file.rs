@@ -92,7 +92,7 @@ impl StudyFile {
 
     fn named(&self, parameter: &str) -> impl Iterator<Item = &str> {
         let lists =
-            self.text.axes.iter().filter(move |axis| axis.vary == parameter).filter_map(|axis| match &axis.over {
+            self.text.axes.iter().filter(move |axis| axis.vary == parameter).filter_map(|axis| match &*axis.over {
                 Over::Names(names) => Some(names),
                 _ => None,
             });
@@ -117,7 +117,7 @@ impl StudyFile {
 
     /// The names of its scenarios: paths relative to the study's folder. Each once.
     pub fn scenario_names(&self) -> BTreeSet<&str> {
-        let named = self.text.axes.iter().filter_map(|axis| match &axis.over {
+        let named = self.text.axes.iter().filter_map(|axis| match &*axis.over {
             Over::Problems(name) => Some(name.as_str()),
             _ => None,
         });

@@ -1,8 +1,9 @@
 //! A study as written, and `Bundle`, a study with the contents of everything it names.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use xxhash_rust::xxh3::xxh3_128;
 
 use super::points::Combinations;
@@ -122,8 +123,17 @@ impl GoalText {
 pub(super) struct AxisText {
     /// The parameter's name.
     pub vary: String,
-    /// Its values.
-    pub over: Over,
+    /// Its values, which may be many: the study and its checked axes share them.
+    #[serde(deserialize_with = "shared", serialize_with = "unshared")]
+    pub over: Arc<Over>,
+}
+
+fn shared<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Arc<Over>, D::Error> {
+    Over::deserialize(deserializer).map(Arc::new)
+}
+
+fn unshared<S: Serializer>(over: &Arc<Over>, serializer: S) -> Result<S::Ok, S::Error> {
+    over.as_ref().serialize(serializer)
 }
 
 /// An item of a study that an error is about.

@@ -158,20 +158,20 @@ impl NumberedProblem {
 
 impl Over {
     /// The numbers that are written, but those of starts.
-    pub fn written(&self) -> Vec<WrittenNumber> {
-        match self {
-            Over::Range(..) | Over::Names(_) | Over::Starts(_) | Over::Problems(_) => Vec::new(),
-            Over::Values(values) => values.clone(),
-            Over::Steps(from, to, _) | Over::Uniform(from, to) => vec![*from, *to],
-        }
+    pub fn written(&self) -> impl Iterator<Item = WrittenNumber> {
+        let (list, ends) = match self {
+            Over::Range(..) | Over::Names(_) | Over::Starts(_) | Over::Problems(_) => (&[][..], None),
+            Over::Values(values) => (&values[..], None),
+            Over::Steps(from, to, _) | Over::Uniform(from, to) => (&[][..], Some([*from, *to])),
+        };
+        list.iter().copied().chain(ends.into_iter().flatten())
     }
 
     /// The numbers that are written.
-    pub fn numbers(&self) -> Vec<f64> {
-        match self {
-            Over::Starts(starts) => starts.iter().flatten().map(|coordinate| coordinate.value()).collect(),
-            over => over.written().into_iter().map(WrittenNumber::real).collect(),
-        }
+    pub fn numbers(&self) -> impl Iterator<Item = f64> {
+        let starts = if let Over::Starts(starts) = self { &starts[..] } else { &[] };
+        let of_starts = starts.iter().flatten().map(|coordinate| coordinate.value());
+        self.written().map(WrittenNumber::real).chain(of_starts)
     }
 
     /// Their form, in words.

@@ -10,4 +10,6 @@ mod frames;
 mod gate;
 mod grading;
 mod letters;
+#[cfg(feature = "cli")]
+mod studies;
 mod words;

@@ -1,5 +1,7 @@
 //! What is checked when a study is made: its robots, its goal, its planner and its axes.
 
+use std::sync::Arc;
+
 use super::problems::unsuited;
 use crate::batch::axis::{CheckedAxis, Scenarios};
 use crate::batch::columns::{MAX_ROBOT_COLUMNS, RobotColumns};
@@ -49,7 +51,7 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
     if let Some(wrong) = within.iter().find(|tolerance| **tolerance < 0.0) {
         return Err((StudyItem::Goal, SweepProblem::Tolerance(*wrong)));
     }
-    if study.axes.iter().any(|axis| matches!(axis.over, Over::Problems(_))) {
+    if study.axes.iter().any(|axis| matches!(*axis.over, Over::Problems(_))) {
         // each row has a goal of its own
         return Ok(());
     }
@@ -118,7 +120,7 @@ pub fn make_axes(
         if let Some(before) = axes.iter().position(|axis| overlap(study.goal.as_ref(), &axis.parameter, &parameter)) {
             return Err(refused(SweepProblem::Twice(before)));
         }
-        let axis = CheckedAxis::try_new(parameter, text.over.clone(), scenarios).map_err(refused)?;
+        let axis = CheckedAxis::try_new(parameter, Arc::clone(&text.over), scenarios).map_err(refused)?;
         let goals = robots.iter().find(|known| study.goal.as_ref().is_some_and(|goal| goal.robot == known.name));
         let is_problem = axis.parameter == Parameter::Run(RunParameter::Problem);
         let unsuited = goals.filter(|_| is_problem).and_then(|resident| unsuited(&resident.kind));
@@ -126,7 +128,7 @@ pub fn make_axes(
             return Err(refused(SweepProblem::Idle(reason)));
         }
         if let (Parameter::Robot { robot, of: RobotParameter::Start, .. }, Over::Starts(starts)) =
-            (&axis.parameter, &text.over)
+            (&axis.parameter, &*text.over)
         {
             check_starts(starts, &robots, robot).map_err(refused)?;
         }

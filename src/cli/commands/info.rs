@@ -54,6 +54,8 @@ struct Contents<'a> {
     /// `digest` for a log without frames; left out for one with frames.
     #[serde(skip_serializing_if = "Option::is_none")]
     log: Option<&'a str>,
+    /// The run's digest that the log's end seals; null where it seals none.
+    sealed_digest: Option<String>,
     damage: Option<&'a str>,
 }
 
@@ -89,7 +91,7 @@ impl Info {
     }
 
     fn one(&self, file: &Path, several: bool, data: &mut Data) -> Result<Outcome, Failure> {
-        let LogSource { log, program, damage } = read_log(file)?;
+        let LogSource { log, program, sealed, damage } = read_log(file)?;
         let Recipe { config, script, .. } = &log.recipe;
         let contents = Contents {
             file: several.then(|| shown(file)),
@@ -100,6 +102,7 @@ impl Info {
             script_changes: script.changes.len(),
             program: &program,
             log: (log.kind() == LogKind::Digests).then_some("digest"),
+            sealed_digest: sealed.map(|digest| digest.to_string()),
             damage: damage.as_deref(),
         };
         if self.json {
@@ -121,6 +124,7 @@ impl Info {
 impl Contents<'_> {
     fn print(&self, debug: bool, data: &mut Data) -> Result<(), Failure> {
         let Contents { run, sensor, robots_sensors, script_events, script_changes, program, log, .. } = self;
+        let Contents { sealed_digest, damage, .. } = self;
         data.line(format!("seed     {}", run.seed))?;
         data.line(format!("ticks    {} of {} ({:.2} s)", run.recorded, run.ticks, DT * run.recorded as f64))?;
         for world in &run.worlds {
@@ -139,7 +143,12 @@ impl Contents<'_> {
         if log.is_some() {
             data.line("log      a digest of each second; `motion-lab replay --log full -o FILE` makes the frames")?;
         }
-        data.line(format!("digest   {}", run.digest))?;
+        let seal = match (sealed_digest, damage) {
+            (Some(_), _) => ", which its end seals",
+            (None, None) => ", which its end does not seal: only its frames say that it is this run",
+            (None, Some(_)) => "",
+        };
+        data.line(format!("digest   {}{seal}", run.digest))?;
         run.print_robots(debug, data)
     }
 }

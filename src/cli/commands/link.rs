@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use motion_lab::web::Link;
 
+use crate::cli::support::choices::Site;
 use crate::cli::support::input::shown;
 use crate::cli::support::log_source::{LogSource, read_log};
-use crate::cli::support::site::Site;
 use crate::cli::{Data, Failure, Outcome, say};
 
 /// Print the address that shows a recorded run in a browser, at its last tick

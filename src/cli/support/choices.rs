@@ -1,12 +1,12 @@
 //! Values of arguments: names of worlds and robots, which shells offer though any other text is a value too; one of the
-//! library's values by its name; numbers.
+//! library's values by its name; numbers; the address of the lab's page.
 
 use std::ffi::OsStr;
 use std::str::FromStr;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Arg, Command, Error};
+use clap::{Arg, Args, Command, Error};
 use motion_lab::capture::CaptureForm;
 use motion_lab::configuration::{RobotKind, WrittenCoordinate};
 use motion_lab::names::nearest;
@@ -166,6 +166,24 @@ macro_rules! offers {
 offers!(WorldNames, World::built_in_names());
 offers!(RobotNames, ROBOTS);
 offers!(RobotsAndKinds, KINDS.into_iter().chain(ROBOTS));
+
+/// The page that links lead to.
+#[derive(Debug, Args)]
+pub struct Site {
+    /// The address of the lab's page, for links: where `assets/web/build` was put. By default where `assets/web/serve`
+    /// shows it.
+    #[arg(long, value_name = "URL", default_value = "http://localhost:8000/", value_parser = page_address)]
+    pub site: String,
+}
+
+/// The address of a page, to which a query can be added.
+fn page_address(text: &str) -> Result<String, String> {
+    let rest = text.strip_prefix("http://").or_else(|| text.strip_prefix("https://"));
+    match rest {
+        Some(rest) if !rest.is_empty() && !rest.contains(['?', '#']) => Ok(text.to_owned()),
+        _ => Err("write http:// or https:// and the rest, without ? and #".into()),
+    }
+}
 
 #[cfg(test)]
 mod tests {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use clap::Args;
 use motion_lab::run::{Digest, Log, LogError, LogKind, ReadLog};
 
 use super::input::{read_bytes_if, shown};
@@ -17,6 +18,8 @@ pub struct LogSource {
     pub log: Log,
     /// The program that wrote it, with its version.
     pub program: String,
+    /// The run's digest that its end seals; `None` without one.
+    pub sealed: Option<Digest>,
     /// The damage to the file, if it is not whole.
     pub damage: Option<String>,
 }
@@ -42,21 +45,70 @@ pub fn read_full_log(path: &Path) -> Result<LogSource, Failure> {
     if source.log.kind() == LogKind::Frames { Ok(source) } else { Err(refused(path, &LogError::NoFrames)) }
 }
 
-/// Reads a log; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be used.
+/// Reads a log; of a damaged or unfinished file, its sealed beginning. Fails when not even that can be used, and where
+/// the end seals the digest of another run.
 pub fn read_log(path: &Path) -> Result<LogSource, Failure> {
+    read(path, |error| Err(refused(path, &error)))
+}
+
+/// Reads a log as [`read_log`], also one whose end seals the digest of another run, which `sealed` then is.
+pub fn read_claimed_log(path: &Path) -> Result<LogSource, Failure> {
+    read(path, |error| match error {
+        LogError::OtherRun(other) => Ok(LogSource::of(other.read, None)),
+        error => Err(refused(path, &error)),
+    })
+}
+
+/// Reads a log; of a damaged or unfinished file, its sealed beginning. Any other error is for `otherwise`.
+fn read(path: &Path, otherwise: impl FnOnce(LogError) -> Result<LogSource, Failure>) -> Result<LogSource, Failure> {
     let bytes = read_bytes_if(path, MAX_LOG, begins_as_one)?;
     let progress =
         if bytes.len() < LONG { CommandProgress::none() } else { CommandProgress::of_bytes(bytes.len() as u64) };
     match Log::read_mcap_with(&bytes, |checked| progress.at(checked)) {
-        Ok(ReadLog { log, program, .. }) => Ok(LogSource { log, program, damage: None }),
+        Ok(read) => Ok(LogSource::of(read, None)),
         Err(LogError::Damaged(damaged)) => {
             let message = format!("{}: {damaged}", shown(path));
             match damaged.recovered {
-                Some(ReadLog { log, program, .. }) => Ok(LogSource { log, program, damage: Some(message) }),
+                Some(read) => Ok(LogSource::of(read, Some(message))),
                 None => Err(Failure::input(message, "Record the run again.")),
             }
         }
-        Err(error) => Err(refused(path, &error)),
+        Err(error) => otherwise(error),
+    }
+}
+
+impl LogSource {
+    fn of(read: ReadLog, damage: Option<String>) -> Self {
+        let ReadLog { log, program, sealed, .. } = read;
+        LogSource { log, program, sealed, damage }
+    }
+}
+
+/// The run digests of which a log should have one.
+#[derive(Debug, Args)]
+pub struct ExpectedDigests {
+    /// The run digest that a log must have, as `record` printed it when the run was honest: whoever changes a log can
+    /// seal it again, but not with this digest. Given several times, each log must have one of them.
+    #[arg(long = "expect", value_name = "DIGEST")]
+    digests: Vec<Digest>,
+}
+
+impl ExpectedDigests {
+    /// Whether any is expected.
+    pub fn is_any(&self) -> bool {
+        !self.digests.is_empty()
+    }
+
+    /// Why a log with this run digest is not what is expected.
+    pub fn refusal(&self, found: Digest) -> Option<String> {
+        let expected: Vec<String> = self.digests.iter().map(ToString::to_string).collect();
+        let is_expected = expected.is_empty() || self.digests.contains(&found);
+        (!is_expected).then(|| {
+            let expected = expected.join(" or ");
+            format!(
+                "the run digest is {found}, expected {expected}: seed, settings, worlds, script or frames are others"
+            )
+        })
     }
 }
 
@@ -72,6 +124,7 @@ fn refused(path: &Path, error: &LogError) -> Failure {
         LogError::Export => "Name the log that it was exported from.".to_owned(),
         LogError::Version(_) => "Read it with the motion-lab that wrote it.".to_owned(),
         LogError::NoFrames => format!("Make the frames from it: motion-lab replay {file} --log full -o FULL.mcap"),
+        LogError::OtherRun(_) => "Do not trust what is in it: ask for the log as it was recorded.".to_owned(),
         _ => "Record the run again.".to_owned(),
     };
     Failure::input(format!("{file}: {error}"), next)

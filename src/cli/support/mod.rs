@@ -11,7 +11,6 @@ pub(crate) mod output;
 pub(crate) mod paper;
 pub(crate) mod progress;
 pub(crate) mod simulate;
-pub(crate) mod site;
 pub(crate) mod summary;
 pub(crate) mod target;
 pub(crate) mod words;

@@ -187,6 +187,25 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
     assert!(said.contains(&format!("expected {x:?}")), "{said}");
     assert_eq!(reason, format!("forged at {said}"));
 
+    // with settings that change no frame, and a digest of its own: the honest one settles it
+    let mut bounds = log.clone();
+    std::sync::Arc::make_mut(&mut bounds.recipe.config).ticks -= 1;
+    let bounds = Log::with_frames(
+        bounds.recipe,
+        log.initial().unwrap().clone(),
+        log.frames()[..log.frames().len() - 1].to_vec(),
+    );
+    fs::write(folder.path().join("shorter.mcap"), seal(&bounds)).unwrap();
+    assert_eq!(graded(folder.path(), &["shorter.mcap"]).code, Some(0));
+    let digest = log.digest().unwrap().to_string();
+    let strict = graded(folder.path(), &["--expect", &digest, "run.mcap", "shorter.mcap", "ahead.ron"]);
+    let rows: Vec<serde_json::Value> = strict.out.lines().map(json).collect();
+    assert_eq!((strict.code, &rows[0]["passed"]), (Some(4), &true.into()));
+    let held = bounds.digest().unwrap();
+    let reason = rows[1]["refused"].as_str().unwrap();
+    assert!(reason.starts_with(&format!("the run digest is {held}, expected {digest}: ")), "{reason}");
+    assert_eq!(rows[2]["refused"], "no log: --expect asks for one with this run digest");
+
     // cut, and not sealed
     let bytes = seal(&log);
     fs::write(folder.path().join("cut.mcap"), &bytes[..bytes.len() - 2000]).unwrap();

@@ -287,3 +287,33 @@ fn gradescope_gets_its_results() {
         run_in(folder.path(), &["grade", "--format", "gradescope", "exam.ron", "good.ron", "idle.ron"]).failed(2);
     assert!(many.contains("2 submissions"), "{many}");
 }
+
+/// Whoever names a file may not write a row, a column or a formula of the gradebook.
+#[cfg(unix)]
+#[test]
+fn the_name_of_a_file_is_one_cell_of_the_gradebook_whatever_is_in_it() {
+    let names =
+        ["=cmd()|calc.ron", "\u{ff1d}1+1.ron", "a,b;\"c\".ron", "x\nbob.ron     1  passed.ron", "l\u{2028}m.ron"];
+    let files: Vec<(&str, &str)> = names.iter().map(|name| (*name, THROUGH)).chain([("exam.ron", PARK)]).collect();
+    let folder = folder(&files);
+    let grade =
+        |form: &str| run_in(folder.path(), &[&["grade", "--format", form, "exam.ron"], &names[..]].concat()).out;
+    let csv = grade("csv");
+    // by RFC 4180: what begins with a quote ends at the next single one
+    let rows: Vec<&str> = csv.split(",true,1,1,").map(|row| row.rsplit("refused\n").next().unwrap()).collect();
+    let cell = |row: &str| row.rsplit_once(",\n").map_or(row.to_owned(), |(_, name)| name.to_owned());
+    let cells: Vec<String> = rows[..names.len()].iter().map(|row| cell(row)).collect();
+    let expected = [
+        "'=cmd()|calc.ron",
+        "'\u{ff1d}1+1.ron",
+        "\"a,b;\"\"c\"\".ron\"",
+        "\"x\nbob.ron     1  passed.ron\"",
+        "\"l\u{2028}m.ron\"",
+    ];
+    assert_eq!(cells, expected, "{csv}");
+    let table = grade("table");
+    assert_eq!(table.lines().count(), 1 + 2 * names.len() + 1, "a line for each seed of each file\n{table}");
+    assert!(table.contains("x\\u{a}bob.ron     1  passed.ron  ") && table.contains("l\\u{2028}m.ron "), "{table}");
+    let json: Vec<serde_json::Value> = grade("json").lines().map(json).collect();
+    assert_eq!(json.iter().map(|row| row["submission"].as_str().unwrap()).collect::<Vec<_>>(), names);
+}

@@ -9,5 +9,6 @@ pub mod link;
 pub mod progress;
 pub mod record;
 pub mod replay;
+pub mod sealed_digests;
 pub mod stats;
 pub mod verify;

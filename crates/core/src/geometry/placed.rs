@@ -54,7 +54,8 @@ impl Placed {
 
     /// A box that holds the shape in spite of rounding, so that a broad phase drops nothing by it. All of the plane for
     /// a shape that is not valid.
-    pub(crate) fn padded_bounds(&self) -> Aabb {
+    #[doc(hidden)]
+    pub fn padded_bounds(&self) -> Aabb {
         if !self.is_valid() {
             return Aabb::new(Point2::new(-1e200, -1e200), Point2::new(1e200, 1e200));
         }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::{BeamError, OutlineError, OutsideError, ResidentSensorError, RouteError};
+use super::{AllRaysError, BeamError, OutlineError, OutsideError, ResidentSensorError, RouteError};
 use crate::configuration::{SizesError, WrittenCoordinateError};
 use crate::geometry::ShapeError;
 
@@ -155,6 +155,9 @@ pub enum WorldProblem {
     /// One of a robot's own sensors that is refused.
     #[error(transparent)]
     Sensors(#[from] ResidentSensorError),
+    /// Sensors with too many rays in all, up to this robot's.
+    #[error(transparent)]
+    AllRays(#[from] AllRaysError),
     /// A line that is no route.
     #[error(transparent)]
     Route(#[from] RouteError),

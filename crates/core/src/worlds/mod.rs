@@ -116,7 +116,7 @@ pub use route::{MAX_ROUTE_POINTS, ROUTE_RADII, ROUTE_SPEEDS, Route, RouteError, 
 #[doc(hidden)]
 pub use sensor::check_mount;
 pub use sensor::{
-    FanSensor, MAX_RANGE, MAX_RAYS, MAX_SENSORS, MIN_FIELD_OF_VIEW, MIN_RANGE, RangeSensor, ResidentSensor,
-    ResidentSensorError, ResidentSensorProblem, SensorError,
+    AllRaysError, FanSensor, MAX_ALL_RAYS, MAX_RANGE, MAX_RAYS, MAX_SENSORS, MIN_FIELD_OF_VIEW, MIN_RANGE, RangeSensor,
+    RayCount, ResidentSensor, ResidentSensorError, ResidentSensorProblem, SensorError,
 };
 pub use warehouse::{WAREHOUSE_ROBOTS, Warehouse, WarehouseError};

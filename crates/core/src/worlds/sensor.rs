@@ -8,6 +8,9 @@ use crate::num::{greater, lesser};
 
 /// The greatest number of rays of a range sensor.
 pub const MAX_RAYS: u32 = 100_000;
+/// The greatest number of rays of all range sensors of a world's robots together, and of all sensors of a run: more
+/// than the 360 that the tour gives a rover, for each of 100,000 rovers.
+pub const MAX_ALL_RAYS: u64 = 40_000_000;
 /// The smallest `max_range` that a range sensor may have, metres.
 pub const MIN_RANGE: f64 = 1e-3;
 /// The largest `max_range` that a range sensor may have, metres.
@@ -157,6 +160,30 @@ impl FanSensor {
             Some(wide) => 0.5 * wide * ((2.0 * f64::from(k) - f64::from(n - 1)) / f64::from(n - 1)),
             None => TAU * f64::from(k) / f64::from(n),
         }
+    }
+}
+
+/// Sensors with more rays than [`MAX_ALL_RAYS`] together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("with its sensors there are {0} rays in all: at most {MAX_ALL_RAYS}")]
+pub struct AllRaysError(pub u64);
+
+/// Counts the rays of the sensors of a world or of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCount(u64);
+
+impl RayCount {
+    /// Adds the rays of a sensor, or of several.
+    ///
+    /// # Errors
+    /// [`AllRaysError`] with the sum, which is then not counted, where there are more than [`MAX_ALL_RAYS`].
+    pub fn add(&mut self, rays: u64) -> Result<(), AllRaysError> {
+        let sum = self.0.saturating_add(rays);
+        if sum > MAX_ALL_RAYS {
+            return Err(AllRaysError(sum));
+        }
+        self.0 = sum;
+        Ok(())
     }
 }
 

@@ -64,14 +64,21 @@ fn print(cell: LogCell<'_>, row: &mut String) {
 
 /// A text as a cell: in quotes where it has to be, also for programs that take `;` or a tab for the comma.
 ///
-/// A text that a spreadsheet would take for a formula, because it begins with `=`, `+`, `-`, `@`, a tab or a line end,
-/// gets an apostrophe before it.
+/// A text that a spreadsheet would take for a formula, because it begins with `=`, `+`, `-`, `@`, one of these in full
+/// width, a tab or a line end, gets an apostrophe before it.
 pub fn csv_cell(text: &str) -> String {
-    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
+    let is_formula = text.starts_with(FORMULA_SIGNS) || text.starts_with(LINE_ENDS);
     let text = if is_formula { format!("'{text}") } else { text.to_owned() };
-    let has_signs = text.contains([',', ';', '\t', '"', '\n', '\r']);
+    let has_signs = text.contains([',', ';', '\t', '"']) || text.contains(LINE_ENDS);
     if has_signs { format!("\"{}\"", text.replace('"', "\"\"")) } else { text }
 }
+
+/// What a formula begins with, also as East Asian keyboards write it.
+const FORMULA_SIGNS: [char; 9] = ['=', '+', '-', '@', '\t', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}'];
+
+/// What some reader takes for the end of a row: Unicode's line ends, and the separators that Python splits lines at.
+const LINE_ENDS: [char; 10] =
+    ['\n', '\r', '\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}', '\u{2029}'];
 
 #[cfg(test)]
 mod tests {
@@ -93,7 +100,19 @@ mod tests {
         for begin in ["+", "-", "@"] {
             assert_eq!(csv_cell(&format!("{begin}x")), format!("'{begin}x"));
         }
+        for begin in ["\u{ff1d}", "\u{ff0b}", "\u{ff0d}", "\u{ff20}"] {
+            assert_eq!(csv_cell(&format!("{begin}x")), format!("'{begin}x"));
+        }
         assert_eq!((csv_cell("a=1"), csv_cell("")), ("a=1".into(), String::new()));
+    }
+
+    /// The ends of lines as Python's `str.splitlines` lists them.
+    #[test]
+    fn a_text_with_the_end_of_a_row_stands_in_quotes() {
+        for end in "\n\r\u{b}\u{c}\u{1c}\u{1d}\u{1e}\u{85}\u{2028}\u{2029}".chars() {
+            assert_eq!(csv_cell(&format!("a{end}b")), format!("\"a{end}b\""));
+            assert_eq!(csv_cell(&format!("{end}=1")), format!("\"'{end}=1\""));
+        }
     }
 
     #[test]

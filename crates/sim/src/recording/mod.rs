@@ -12,6 +12,7 @@
 //! ```
 
 mod final_lines;
+mod frame_list;
 mod identity;
 mod recorder;
 mod run;
@@ -19,6 +20,7 @@ mod verification;
 
 pub use crate::run::RunInput;
 pub use final_lines::{final_lines, final_lines_with, printed_as, printed_configuration};
+pub use frame_list::{FrameList, FramesError, MAX_FRAME_BYTES};
 pub use identity::identity_line;
 pub use recorder::{Recorder, RunError};
 pub use run::Run;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use bevy::app::App;
 use bevy::ecs::world::World;
 
+use super::frame_list::{FrameList, FramesError};
 use crate::run::{Frame, Log, Recipe, RobotInput, RunInput, Script, WorldChange};
 use crate::simulation::{
     CommandError, Keyframes, Later, LatestFrame, PendingInput, Refusals, RestoreError, RobotCommand, RobotView, Roster,
@@ -24,6 +25,9 @@ pub enum RunError {
     /// A frame does not fit the run.
     #[error(transparent)]
     Restore(#[from] RestoreError),
+    /// Frames that take too much memory.
+    #[error(transparent)]
+    Frames(#[from] FramesError),
 }
 
 /// A run under way without a window: the same plugin and the same schedule as with one, run directly.
@@ -151,14 +155,32 @@ impl Recorder {
     /// and stands where it stood.
     ///
     /// # Errors
-    /// [`RunError::Restore`], which cannot happen with the run's own keyframes.
+    /// [`RunError::Frames`] of a run that is too long for it. [`RunError::Restore`], which cannot happen with the run's
+    /// own keyframes.
     pub fn log(&mut self) -> Result<Log, RunError> {
         let ticks = self.frame().tick;
+        FrameList::try_new(self.frame(), ticks)?;
         let initial = self.seek(0)?.clone();
-        let frames = (0..ticks).map(|_| self.step().clone()).collect();
+        let frames = self.frames(ticks);
+        if frames.is_err() {
+            self.seek(ticks)?;
+        }
+        let frames = frames?;
         let config = Arc::new(TourConfig { ticks, ..self.config().clone() });
         let recipe = Recipe { seed: self.transport().seed, config, script: self.script().clone() };
         Ok(Log::with_frames(recipe, initial, frames))
+    }
+
+    /// Runs this many ticks and returns their frames.
+    ///
+    /// # Errors
+    /// [`RunError::Frames`] where they are too many to be kept.
+    pub(super) fn frames(&mut self, ticks: u64) -> Result<Vec<Frame>, RunError> {
+        let mut kept = FrameList::try_new(self.frame(), ticks)?;
+        for _ in 0..ticks {
+            kept.push(self.step())?;
+        }
+        Ok(kept.into_frames())
     }
 
     /// Moves to a tick, back or ahead, and returns its frame.

@@ -16,7 +16,8 @@ impl Run {
     /// Runs `config` for its ticks and returns the log. The input is a seed, a script (at the book's seed), or both.
     ///
     /// # Errors
-    /// [`RunError`] names the invalid part of the configuration or the script.
+    /// [`RunError`] names the invalid part of the configuration or the script; [`RunError::Frames`] is that of a run
+    /// whose frames would take more than [`MAX_FRAME_BYTES`](super::MAX_FRAME_BYTES).
     pub fn record(config: impl Into<Arc<TourConfig>>, input: impl Into<RunInput>) -> Result<Log, RunError> {
         Self::record_with_robots(config, input, |_| {})
     }
@@ -44,7 +45,8 @@ impl Run {
         let ticks = recipe.config.ticks;
         if kind == LogKind::Frames {
             let initial = recorder.frame().clone();
-            return Ok(Log::with_frames(recipe, initial, Self::frames(&mut recorder, ticks)));
+            let frames = recorder.frames(ticks)?;
+            return Ok(Log::with_frames(recipe, initial, frames));
         }
         let mut run = RunDigest::new(&recipe, recorder.frame());
         let (start, mut digests) = (run.lower_half(), Vec::new());
@@ -73,7 +75,7 @@ impl Run {
     /// [`RunError`] when the log's configuration or script cannot be run.
     pub fn replay_with_robots(log: &Log, add: impl FnOnce(&mut App)) -> Result<Vec<Frame>, RunError> {
         let mut recorder = Recorder::of_with_robots(&log.recipe, add)?.without_keyframes();
-        Ok(Self::frames(&mut recorder, log.recipe.config.ticks))
+        recorder.frames(log.recipe.config.ticks)
     }
 
     /// Calls `watch` with the run in the state of each of the log's frames, from tick 0 on. Nothing is simulated: the
@@ -100,9 +102,5 @@ impl Run {
             watch(&run)?;
         }
         Ok(())
-    }
-
-    fn frames(recorder: &mut Recorder, ticks: u64) -> Vec<Frame> {
-        (0..ticks).map(|_| recorder.step().clone()).collect()
     }
 }

@@ -14,6 +14,22 @@ impl std::fmt::Display for Digest {
     }
 }
 
+/// A text that is no digest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a digest has 32 hexadecimal digits, as `record` prints it")]
+pub struct DigestError;
+
+impl std::str::FromStr for Digest {
+    type Err = DigestError;
+
+    /// Reads 32 hexadecimal digits, in small letters or capitals.
+    fn from_str(text: &str) -> Result<Self, DigestError> {
+        let is_one = text.len() == 32 && text.bytes().all(|byte| byte.is_ascii_hexdigit());
+        let number = if is_one { u128::from_str_radix(text, 16).ok() } else { None };
+        number.map(Digest).ok_or(DigestError)
+    }
+}
+
 impl Frame {
     /// The digest of the frame's [canonical encoding](Frame::encode).
     pub fn digest(&self) -> Digest {
@@ -132,6 +148,16 @@ mod tests {
             let digest = changed.digest().unwrap();
             assert!(!digests.contains(&digest), "{what} left the digest as it was");
             digests.push(digest);
+        }
+    }
+
+    #[test]
+    fn a_digest_is_read_as_it_prints_and_nothing_else_is() {
+        let text = "00f745674b9949ddd86153036592511a";
+        assert_eq!(text.parse(), Ok(Digest(0x00f7_4567_4b99_49dd_d861_5303_6592_511a)));
+        assert_eq!(text.to_uppercase().parse::<Digest>().map(|digest| digest.to_string()), Ok(text.to_owned()));
+        for wrong in ["", &text[1..], &format!("{text}0"), &text.replace("1a", "1g"), &text.replacen('0', "+", 1)] {
+            assert_eq!(wrong.parse::<Digest>(), Err(DigestError), "{wrong}");
         }
     }
 

@@ -6,7 +6,7 @@ mod digest;
 mod divergence;
 mod field;
 #[cfg(test)]
-mod fixture;
+pub(crate) mod fixture;
 mod frame;
 mod log;
 mod mcap;
@@ -21,20 +21,22 @@ mod world_change;
 
 pub use comparison::{Comparison, Difference, DifferingSecond};
 pub use difference::SetupDifference;
-pub use digest::{Digest, RunDigest};
+pub use digest::{Digest, DigestError, RunDigest};
 pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
 pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState, seconds};
 pub use log::{DIGEST_TICKS, Log, LogKind, MAX_ROBOTS_IN_FULL, Recorded, SecondDigests};
 pub use mcap::{
     DIGEST_FORMAT_VERSION, DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES,
-    GENERATOR, LogError, LogWriter, ReadLog, TICK_NANOSECONDS,
+    GENERATOR, LogError, LogWriter, OtherRun, ReadLog, TICK_NANOSECONDS,
 };
 pub use quantized::Quantized;
 pub use recipe::{Recipe, RunInput};
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
 #[doc(hidden)]
 pub use script_check::check_target;
-pub use script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
+pub use script_error::{
+    MAX_CHANGED_SHAPES, MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput,
+};
 pub use stats::{LeastClearance, Quantity, RobotStats, RunStats, Series, SeriesGatherer, StatsGatherer};
 pub use world_change::{WorldChange, WorldEvent};

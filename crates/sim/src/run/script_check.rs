@@ -3,12 +3,14 @@
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::script_error::{MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput};
+use super::script_error::{
+    MAX_CHANGED_SHAPES, MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput,
+};
 use super::{Event, Quantized, RobotInput, Script, WorldChange, WorldEvent};
 use crate::tour::{MAX_TICKS, TourConfig};
 use motion_lab_core::configuration::{Kinds, RobotKind};
 use motion_lab_core::geometry::{Aabb, MAX_COORDINATE, Point2};
-use motion_lab_core::worlds::{OutsideError, World, check_name};
+use motion_lab_core::worlds::{MAX_ITEMS, OutsideError, World, check_name};
 
 impl Script {
     /// Checks a script made by a program: whether [`parse`](Self::parse) could have returned it.
@@ -102,14 +104,17 @@ impl Script {
     }
 
     /// Checks that the changes fit the worlds of a run: that each names a world, and in it a door, an obstacle that the
-    /// world or an earlier change has, or a new obstacle's name that nothing has.
+    /// world or an earlier change has, or a new obstacle's name that nothing has; that no world gets more than
+    /// [`MAX_ITEMS`] shapes; and that the shapes of the changed worlds, over the ticks that change them, are at most
+    /// [`MAX_CHANGED_SHAPES`].
     ///
     /// # Errors
     /// [`ScriptError`] without file and line, naming the first change that does not fit.
     pub fn check_worlds(&self, worlds: &[World]) -> Result<(), ScriptError> {
         let mut added: BTreeSet<(&str, &str)> = BTreeSet::new();
         let mut known: BTreeMap<&str, KnownNames> = BTreeMap::new();
-        for (i, WorldEvent { world, change, .. }) in self.changes.iter().enumerate() {
+        let mut made = 0;
+        for (i, WorldEvent { tick, world, change }) in self.changes.iter().enumerate() {
             let (world, name) = (world.as_str(), change.name());
             let names = match known.entry(world) {
                 Entry::Occupied(names) => names.into_mut(),
@@ -138,16 +143,41 @@ impl Script {
             if let WorldChange::Add { name, .. } = change {
                 added.insert((world, name));
             }
+            let is_add = matches!(change, WorldChange::Add { .. });
+            made += names.shapes.changed(*tick, is_add);
+            if is_add && names.shapes.count > MAX_ITEMS as u64 {
+                return Err(ScriptProblem::Shapes(world.to_owned()).at("changes", i));
+            }
+            if made > MAX_CHANGED_SHAPES {
+                return Err(ScriptProblem::ChangedShapes.at("changes", i));
+            }
         }
         Ok(())
     }
 }
 
-/// The names of a world.
+/// The names of a world, and its shapes.
 struct KnownNames<'a> {
     all: BTreeSet<&'a str>,
     doors: BTreeSet<&'a str>,
     obstacles: BTreeSet<&'a str>,
+    shapes: ChangedShapes,
+}
+
+/// The shapes of a world, and the tick that has changed it last.
+struct ChangedShapes {
+    count: u64,
+    tick: u64,
+}
+
+impl ChangedShapes {
+    /// Takes a change. Returns how many shapes the scene of its tick has by it, beyond those that were counted.
+    fn changed(&mut self, tick: u64, is_add: bool) -> u64 {
+        self.count += u64::from(is_add);
+        let is_first = self.tick != tick;
+        self.tick = tick;
+        if is_first { self.count } else { u64::from(is_add) }
+    }
 }
 
 impl<'a> KnownNames<'a> {
@@ -162,7 +192,9 @@ impl<'a> KnownNames<'a> {
         let others = world.places.iter().map(|p| &p.name).chain(world.marks.iter().map(|m| &m.name));
         let others = others.chain(world.robots.iter().map(|r| &r.name)).map(String::as_str);
         let all = others.chain(doors.iter().copied()).chain(obstacles.iter().copied()).collect();
-        Ok(KnownNames { all, doors, obstacles })
+        let pieces: usize = world.obstacles.iter().map(|o| o.pieces.len()).sum();
+        let shapes = ChangedShapes { count: (pieces + world.doors.len()) as u64, tick: 0 };
+        Ok(KnownNames { all, doors, obstacles, shapes })
     }
 }
 

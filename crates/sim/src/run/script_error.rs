@@ -4,11 +4,14 @@ use super::script::{SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES};
 use crate::tour::MAX_TICKS;
 use motion_lab_core::configuration::{InputKind, RobotKind, Space};
 use motion_lab_core::geometry::MAX_COORDINATE;
+use motion_lab_core::worlds::MAX_ITEMS;
 
 /// Largest number of events in a script.
 pub const MAX_EVENTS: usize = 1_000_000;
 /// Largest number of coordinates in a `MoveTo` or `Teleport`.
 pub const MAX_COORDINATES: usize = 64;
+/// Largest sum of the shapes of a world over the ticks at which a script changes it: its scene is made anew at each.
+pub const MAX_CHANGED_SHAPES: u64 = 1_000_000_000;
 /// The greatest absolute value of a control channel: the robot's maximum.
 pub const MAX_CHANNEL: i16 = motion_lab_core::robots::CHANNEL_UNITS as i16;
 
@@ -134,6 +137,15 @@ pub enum ScriptProblem {
         /// The name.
         name: String,
     },
+    /// A new obstacle that the world has no room for.
+    #[error("world {0:?} would have more than {MAX_ITEMS} shapes, with those that the script adds")]
+    Shapes(String),
+    /// A tick at which a world changes too often for its size.
+    #[error(
+        "the worlds change too often for their size: the shapes of a changed world, over all ticks that change it, are \
+         at most {MAX_CHANGED_SHAPES} in all"
+    )]
+    ChangedShapes,
     /// A new obstacle whose name no world file could hold.
     #[error("name {0:?}: it must be 1 to 200 bytes without control characters and without blanks at its ends")]
     Name(String),

@@ -45,6 +45,7 @@ pub use history::{Happening, History, HistoryPlugin, TickMark};
 pub use latest_frame::LatestFrame;
 pub use obstacles::change::ChangeRefused;
 pub use past::keyframes::Keyframes;
+pub(crate) use past::keyframes::size_of_lists;
 pub use past::trail::Trail;
 pub use play::{PlayError, PlayStage, PlayablePath, PlayedPath};
 pub use plugin::{SimulationPlugin, headless_app};

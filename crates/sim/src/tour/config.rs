@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::{RangeSensor, SensorError};
-use motion_lab_core::worlds::{Resident, ResidentSensorError, RouteError, World, check_sensors};
+use motion_lab_core::worlds::{
+    AllRaysError, RayCount, Resident, ResidentSensorError, RouteError, World, check_sensors,
+};
 
 /// The seed of every run printed in the book.
 pub const BOOK_SEED: Seed = Seed(2005);
@@ -61,6 +63,16 @@ pub enum ConfigError {
         world: String,
         /// Which of its sensors, and the reason.
         source: Box<ResidentSensorError>,
+    },
+    /// Sensors with too many rays in all: up to this robot's, the run's own sensor among them.
+    #[error("robot {robot:?} in world {world:?}: {source}")]
+    AllRays {
+        /// The robot.
+        robot: String,
+        /// Its world.
+        world: String,
+        /// How many there are, and may be.
+        source: AllRaysError,
     },
     /// A route that is refused. World files are checked for this; a world made in code may have one.
     #[error("route {route:?} in world {world:?}: {source}")]
@@ -126,7 +138,7 @@ impl TourConfig {
                 route.path().map_err(refused)?;
             }
         }
-        let mut names = BTreeSet::new();
+        let (mut names, mut rays) = (BTreeSet::new(), RayCount::default());
         for (world, robot) in self.worlds.iter().flat_map(|w| w.robots.iter().map(move |r| (w, r))) {
             let (world, name) = (world.name.clone(), robot.name.clone());
             if !names.insert(&robot.name) {
@@ -137,6 +149,9 @@ impl TourConfig {
             }
             if let Err(source) = check_sensors(&robot.sensors) {
                 return Err(ConfigError::ResidentSensor { robot: name, world, source: Box::new(source) });
+            }
+            if let Err(source) = rays.add(self.rays_of(robot)) {
+                return Err(ConfigError::AllRays { robot: name, world, source });
             }
         }
         Ok(())
@@ -149,7 +164,7 @@ mod tests {
     use motion_lab_core::geometry::Aabb;
     use motion_lab_core::geometry::Point2;
     use motion_lab_core::sensors::{MAX_RANGE, MAX_RAYS, MIN_RANGE};
-    use motion_lab_core::worlds::Resident;
+    use motion_lab_core::worlds::{Resident, ResidentSensor};
 
     fn world(name: &str, robots: &[&str]) -> World {
         let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(1.0, 1.0) };
@@ -194,5 +209,24 @@ mod tests {
             let error = changed.validate().expect_err(reason).to_string();
             assert!(error.starts_with(reason), "{error}");
         }
+    }
+
+    #[test]
+    fn the_rays_of_all_worlds_and_of_the_runs_own_sensor_are_counted_together() {
+        let sensor = |n_rays| RangeSensor { n_rays, max_range: 1.0 };
+        let mut one = world("one", &["a", "b"]);
+        let own = ["x", "y"].map(|name| ResidentSensor::new(name, sensor(MAX_RAYS)));
+        one.robots.iter_mut().for_each(|robot| robot.sensors = own.to_vec());
+        one.robots[1].kind = "hitch".into();
+        let names: Vec<String> = (0..396).map(|k| format!("r{k}")).collect();
+        let two = world("two", &names.iter().map(String::as_str).collect::<Vec<_>>());
+        // of its own a has two sensors and b two; with the run's, of which the car b has none, 400 and one more
+        let full =
+            |rays: u32| TourConfig { worlds: vec![one.clone(), two.clone()], ticks: 1, sensor: Some(sensor(rays)) };
+        let error = full(MAX_RAYS).validate().unwrap_err().to_string();
+        let expected = "with its sensors there are 40100000 rays in all: at most 40000000";
+        assert_eq!(error, format!("robot \"r395\" in world \"two\": {expected}"));
+        assert_eq!(full(99_748).validate(), Ok(()), "four times 100,000 and 397 times 99,748");
+        assert!(full(99_749).validate().is_err());
     }
 }

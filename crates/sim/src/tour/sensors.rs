@@ -19,6 +19,13 @@ impl TourConfig {
         (sensors.len() == scans).then_some(sensors)
     }
 
+    /// The number of rays of a resident's sensors, that of the run's own among them wherever its kind may carry one.
+    pub(super) fn rays_of(&self, resident: &Resident) -> u64 {
+        let senses = RobotKind::of(&resident.kind).is_none_or(|kind| kind.senses);
+        let given = self.sensor.filter(|_| senses).map_or(0, |sensor| u64::from(sensor.n_rays));
+        given + resident.own_rays()
+    }
+
     /// The residents of all worlds, by ascending id of their robots.
     pub fn residents(&self) -> impl Iterator<Item = &Resident> {
         self.worlds.iter().flat_map(|world| &world.robots)

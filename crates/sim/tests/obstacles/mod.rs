@@ -5,6 +5,7 @@ mod captures;
 mod doors;
 mod live;
 mod logs;
+mod within_a_tick;
 
 use motion_lab_core::prelude::*;
 use motion_lab_sim::run::{Frame, Log, Quantized, Script, WorldChange, WorldEvent};

@@ -7,6 +7,7 @@ pub mod crowds;
 mod digest_logs;
 mod inputs;
 mod keyframes;
+mod lengths;
 mod live;
 mod many_worlds;
 mod replicas;

@@ -122,8 +122,8 @@ impl Graded {
 
     /// Prints a line for each attempt, or the reason why there are none.
     pub fn print(&self, width: usize, data: &mut Data) -> Result<(), Failure> {
-        let name = &self.submission;
-        if let Some(reason) = &self.refused {
+        let name = in_one_line(&self.submission);
+        if let Some(reason) = self.refused.as_deref().map(in_one_line) {
             data.line(format!("{name:width$}  {:>6}  {reason}", "-"))?;
         }
         for tried in &self.attempts {
@@ -142,6 +142,17 @@ impl Graded {
         }
         Ok(())
     }
+}
+
+/// A text without line ends, so that no file's name makes a row of its own: they are written as their numbers, as in
+/// `\u{a}`.
+pub fn in_one_line(text: &str) -> String {
+    let ends = |c: char| matches!(c, '\n' | '\u{2028}' | '\u{2029}');
+    let mut line = String::new();
+    for c in text.chars() {
+        if ends(c) { line.extend(c.escape_unicode()) } else { line.push(c) }
+    }
+    line
 }
 
 /// Points with two decimals at most.

@@ -15,13 +15,13 @@ use motion_lab::simulation::SpawnError;
 
 use crate::cli::support::console::note;
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};
-use crate::cli::support::log_source::MAX_LOG;
+use crate::cli::support::log_source::{ExpectedDigests, MAX_LOG};
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::unknown_kind;
 use crate::cli::support::world_source::find_world_beside;
 use crate::cli::{Data, Failure, Outcome, say};
 use gradebook::Results;
-use graded::Graded;
+use graded::{Graded, in_one_line};
 use submissions::{Submissions, ending};
 
 /// Grade scripts and logs by running them again at every seed of an assignment
@@ -70,6 +70,8 @@ pub struct GradeArgs {
     /// A gradebook: a row of comma-separated values for each submission; the same as --format csv.
     #[arg(long)]
     csv: bool,
+    #[command(flatten)]
+    expected: ExpectedDigests,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -100,7 +102,7 @@ impl GradeArgs {
         let assignment = read_assignment(&self.assignment)?;
         let Submissions { graded: files, left_out } = submissions::find(&self.submissions, &self.assignment)?;
         for (file, reason) in &left_out {
-            say(format!("{}: left out: {reason}", file.display()));
+            say(format!("{}: left out: {reason}", in_one_line(&file.display().to_string())));
         }
         if form == ReportForm::Gradescope && files.len() != 1 {
             return Err(Failure::usage(
@@ -109,7 +111,8 @@ impl GradeArgs {
             ));
         }
         let names: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
-        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0).max("submission".len());
+        let width =
+            names.iter().map(|name| in_one_line(name).chars().count()).max().unwrap_or(0).max("submission".len());
         let (mut passed, mut is_missing) = (0, false);
         match form {
             ReportForm::Table => data.line(Graded::head(width))?,
@@ -120,7 +123,7 @@ impl GradeArgs {
         let progress = CommandProgress::of(names.len() as u64 * seeds * ticks, "ticks");
         for ((path, name), number) in files.iter().zip(&names).zip(0_u64..) {
             let before = number * seeds * ticks;
-            let graded = match read_submission(path) {
+            let graded = match read_submission(path, &self.expected) {
                 Ok(Ok(submission)) => {
                     let grade = assignment.grade_watched(&submission, |attempt, tick| {
                         progress.at(before + attempt as u64 * ticks + tick)
@@ -185,15 +188,20 @@ fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
 }
 
 /// A submission, or why it is none. Only a file that can't be read at all is a failure.
-fn read_submission(path: &Path) -> Result<Result<Submission, String>, Failure> {
+fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Result<Submission, String>, Failure> {
     if path.is_dir() {
         return Ok(Err("no script, log or table is in this folder".into()));
     }
     if ending(path) == "mcap" {
-        let log = Log::read_mcap(&read_bytes(path, MAX_LOG)?);
-        return Ok(log.map(|read| Submission::Log(Box::new(read.log))).map_err(|error| error.to_string()));
+        let log = Log::read_mcap(&read_bytes(path, MAX_LOG)?).map_err(|error| error.to_string());
+        let expected = |log: &Log| log.digest().and_then(|digest| expected.refusal(digest)).map_or(Ok(()), Err);
+        let submission = log.and_then(|read| expected(&read.log).map(|()| Submission::Log(Box::new(read.log))));
+        return Ok(submission);
     }
     let bytes = read_bytes(path, MAX_TEXT)?;
+    if expected.is_any() {
+        return Ok(Err("no log: --expect asks for one with this run digest".into()));
+    }
     if ending(path) == "csv" {
         let (file, ron) = (path.display(), path.with_extension("ron"));
         let ron = ron.display();

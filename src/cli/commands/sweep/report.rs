@@ -11,9 +11,9 @@ use motion_lab::run::Recipe;
 use motion_lab::web::Link;
 
 use crate::cli::support::choices;
+use crate::cli::support::choices::Site;
 use crate::cli::support::input::{is_dash, open};
 use crate::cli::support::output::write_text;
-use crate::cli::support::site::Site;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
 

@@ -2,19 +2,22 @@
 
 use super::description::{BoundsText, DoorText, ObstacleText, PlaceText, PolylineText, ShapeText, Xy, point};
 use crate::geometry::{Aabb, ConvexPolygon, MAX_COORDINATE, Point2, Pose2, Shape, ShapeError, convex_hull};
-use crate::worlds::{Door, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, WorldProblem};
+use crate::worlds::{
+    Door, MAX_CONCAVE_VERTICES, MAX_ITEMS, Mark, Obstacle, ObstacleKind, Place, RayCount, Resident, WorldProblem,
+};
 
-/// The shapes, and the corners of concave polygons, that a world may still have. Cutting up concave polygons takes
+/// The shapes, corners and rays that a world may still have. Cutting up concave polygons takes
 /// quadratic time.
 pub(crate) struct Budget {
     left: usize,
     corners: usize,
     route_corners: usize,
+    rays: RayCount,
 }
 
 impl Default for Budget {
     fn default() -> Self {
-        Budget { left: MAX_ITEMS, corners: MAX_CORNERS, route_corners: MAX_ITEMS }
+        Budget { left: MAX_ITEMS, corners: MAX_CORNERS, route_corners: MAX_ITEMS, rays: RayCount::default() }
     }
 }
 
@@ -31,6 +34,10 @@ impl Budget {
         let what = "corners of concave polygons";
         self.corners = self.corners.checked_sub(corners).ok_or(WorldProblem::TooMany { what })?;
         Ok(())
+    }
+
+    pub(super) fn spend_rays(&mut self, robot: &Resident) -> Result<(), WorldProblem> {
+        Ok(self.rays.add(robot.own_rays())?)
     }
 
     pub(super) fn spend_corners_of_routes(&mut self, corners: usize) -> Result<(), WorldProblem> {

@@ -22,8 +22,9 @@ impl World {
     /// format's form; another version; an unknown field; a name that is empty or taken; numbers that are not finite;
     /// coordinates beyond [`MAX_COORDINATE`](crate::geometry::MAX_COORDINATE); features below
     /// [`MIN_FEATURE`](crate::geometry::MIN_FEATURE); polygons that cross themselves; more than [`MAX_ITEMS`] shapes,
-    /// or items in a list; unknown kinds of robots; robots that
-    /// are not [within the bounds](crate::worlds::OutsideError); [routes](crate::worlds::RouteError) that are none.
+    /// or items in a list; more than [`MAX_ALL_RAYS`](crate::worlds::MAX_ALL_RAYS) rays; unknown kinds of robots;
+    /// robots that are not [within the bounds](crate::worlds::OutsideError); [routes](crate::worlds::RouteError) that
+    /// are none.
     ///
     /// ```
     /// use motion_lab_core::worlds::World;
@@ -68,7 +69,11 @@ impl World {
         let doors = source.convert("doors", &file.doors, |d| make_door(d, &mut budget))?;
         let routes = source.convert("routes", &file.routes, |r| make_route(r, &mut budget))?;
         let radii: Radii<'_> = routes.iter().map(|r| (r.name.as_str(), r.radius)).collect();
-        let robots = source.convert("robots", &file.robots, |r| routed(make_resident(r)?, r, &radii))?;
+        let robots = source.convert("robots", &file.robots, |r| {
+            let robot = make_resident(r)?;
+            budget.spend_rays(&robot)?;
+            routed(robot, r, &radii)
+        })?;
         Ok(World {
             name: file.name,
             bounds,

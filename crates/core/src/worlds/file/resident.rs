@@ -43,6 +43,11 @@ impl Resident {
         Ok(Resident { sensors: check_sensors(sensors)?, ..self })
     }
 
+    /// The number of rays of its own sensors.
+    pub fn own_rays(&self) -> u64 {
+        self.sensors.iter().map(|sensor| u64::from(sensor.rays.sensor.n_rays)).sum()
+    }
+
     /// The same resident with these sizes, which a world file may hold.
     ///
     /// # Errors

@@ -229,3 +229,25 @@ fn the_head_of_the_file() {
     assert!(parse("Lot(version: 1)").starts_with("w.ron:1:"));
     assert!(parse(&format!("World(version: 1, name: \"w\", {bounds}) more")).starts_with("w.ron:1:"));
 }
+
+#[test]
+fn the_rays_of_all_robots_together_have_a_limit() {
+    let yard = |robots: &[usize]| {
+        let sensors = |count: usize| {
+            let each = (0..count).map(|k| format!("(name: \"{k}\", rays: 100000, range: 1)"));
+            each.collect::<Vec<_>>().join(", ")
+        };
+        let robot = |(i, count): (usize, &usize)| {
+            format!("(name: \"R{i}\", kind: \"rusty\", start: [1, 1, 0], sensors: [{}])", sensors(*count))
+        };
+        let robots: Vec<String> = robots.iter().enumerate().map(robot).collect();
+        let bounds = "bounds: (min: (0, 0), max: (4, 3))";
+        format!("World(version: 1, name: \"yard\", {bounds}, robots: [\n{}\n])", robots.join(",\n"))
+    };
+    // 6 times 64 and 16 are 400 sensors of 100,000 rays, forty million
+    let most = World::parse("yard.ron", &yard(&[64, 64, 64, 64, 64, 64, 16])).unwrap();
+    assert_eq!(most.robots.iter().map(|robot| robot.own_rays()).sum::<u64>(), 40_000_000);
+    let error = World::parse("yard.ron", &yard(&[64, 64, 64, 64, 64, 64, 17, 1])).unwrap_err().to_string();
+    let expected = "with its sensors there are 40100000 rays in all: at most 40000000";
+    assert_eq!(error, format!("yard.ron:8:1: robots[6] \"R6\": {expected}"));
+}

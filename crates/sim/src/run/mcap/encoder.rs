@@ -99,14 +99,15 @@ impl Encoder {
         Ok(is_any)
     }
 
-    /// Makes the piece after the last tick: in a log of digests that of the run, with a seal; the end of the file.
-    pub fn finish(&mut self, run: Digest) -> Result<(), LogError> {
+    /// Makes the piece after the last tick: the run's digest, with a seal, and the end of the file. `None` makes the
+    /// end that logs with frames had before they sealed a digest.
+    pub fn finish(&mut self, run: Option<Digest>) -> Result<(), LogError> {
         let (recorded, ticks) = (self.ticks, self.preamble.recipe.config.ticks);
         if recorded != ticks {
             return Err(LogError::Incomplete { recorded, ticks });
         }
         let records = self.sealer.next();
-        if self.preamble.kind() == LogKind::Digests {
+        if let Some(run) = run {
             records.private(RUN_DIGEST, &run.0.to_le_bytes())?;
             self.sealer.seal(ticks)?;
         }

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::ReadLog;
-use crate::run::{LogKind, ScriptError};
+use crate::run::{Digest, LogKind, ScriptError};
 use crate::tour::ConfigError;
 
 /// Why a log can't be written, or a file can't be read as one.
@@ -97,6 +97,29 @@ pub enum LogError {
     /// The file was cut or changed after it was written. Everything sealed is recovered.
     #[error("{0}")]
     Damaged(Box<DamagedLog>),
+    /// The file is whole, but its end seals the digest of another run.
+    #[error("{0}")]
+    OtherRun(Box<OtherRun>),
+}
+
+/// A log that was changed and sealed again, but for the run's digest in its end.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct OtherRun {
+    /// What the file holds.
+    pub read: ReadLog,
+    /// The digest that its end seals.
+    pub sealed: Digest,
+    /// The digest of what it holds.
+    pub held: Digest,
+}
+
+impl fmt::Display for OtherRun {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let OtherRun { sealed, held, .. } = self;
+        write!(f, "the log was changed after it was recorded: its end seals the run digest {sealed}, ")?;
+        write!(f, "and the seed, settings, worlds, script and frames in it have {held}")
+    }
 }
 
 /// What is left of a file that was cut or changed.

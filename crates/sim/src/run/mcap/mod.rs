@@ -8,7 +8,7 @@
 //! |---|---|
 //! | before the first tick | header; metadata `motion-lab`: format, program, seed, dt, ticks, generator and the content hash of each world; attachments `config.ron`, `worlds/0.ron` and so on, `script.ron`; schemas; channels; the messages of tick 0, the initial state; seal |
 //! | each tick | its messages on `/input`, `/frame`, `/scan`, `/digest`; seal |
-//! | the end | data end; summary: schemas, channels, statistics, indexes; footer; magic |
+//! | the end | the run's digest; seal; data end; summary: schemas, channels, statistics, indexes; footer; magic |
 //!
 //! A digest log is such a file without frames: its format is [`DIGEST_FORMAT_VERSION`], and its pieces are
 //!
@@ -21,6 +21,9 @@
 //! A digest record has opcode 0x81. It holds the tick of its last digest, 64 bits, then 64 bits a second, the lower
 //! half of the run's digest so far. The record of the run's digest has opcode 0x82 and holds its 128 bits. A digest
 //! record before the last of a log has 60 digests.
+//!
+//! Logs with frames of before had no digest in their end, and are read as ever. The digest covers what the frames do
+//! not tell, such as a range that no ray has reached. Whoever can seal a file again can compute it, too.
 //!
 //! A message's times are tick * 50 ms from zero. No clock is read, so the same run gives the same bytes.
 
@@ -43,6 +46,6 @@ mod writer;
 pub use channel::{
     DIGEST_FORMAT_VERSION, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, TICK_NANOSECONDS,
 };
-pub use error::{DamageKind, DamagedLog, LogError};
+pub use error::{DamageKind, DamagedLog, LogError, OtherRun};
 pub use read_log::ReadLog;
 pub use writer::LogWriter;

@@ -1,6 +1,6 @@
 //! `ReadLog`, a log read from a file.
 
-use crate::run::Log;
+use crate::run::{Digest, Log};
 
 /// A log read from a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,5 +9,8 @@ pub struct ReadLog {
     pub log: Log,
     /// The program that wrote it, with its version.
     pub program: String,
+    /// The run's digest that the end of the file seals. `None` without an end, and in a log with frames that was
+    /// written before their ends sealed one: then nothing but its frames says that it is this run.
+    pub sealed: Option<Digest>,
     pub(super) world_texts: Vec<String>,
 }

@@ -8,7 +8,7 @@ use super::message::{FrameMessage, ScanMessage};
 use super::preamble::Preamble;
 use super::record::{Cursor, DIGESTS, MAGIC, RUN_DIGEST, Record, SEAL, message, opcode, record_at};
 use super::record_writer::put_seal;
-use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, ReadLog, channel};
+use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, OtherRun, ReadLog, channel};
 use crate::run::log::DIGEST_TICKS;
 use crate::run::{Digest, Frame, Log, Recorded, RunDigest, SecondDigests};
 
@@ -17,10 +17,13 @@ impl Log {
     ///
     /// The reader encodes what it has read again, and accepts the file only if every byte agrees: each piece, its seal
     /// with the hash of everything before it, and the end with its summary and footer. A file that was cut, changed in
-    /// any bit or appended to is therefore never `Ok`.
+    /// any bit or appended to is therefore never `Ok`, nor is one whose end seals the digest of another run. Whoever
+    /// can seal a file again can write the digest anew: compare it with one that you have from elsewhere.
     ///
     /// # Errors
-    /// [`LogError::Damaged`] with everything that is sealed; [`LogError::NotALog`], [`LogError::Export`],
+    /// [`LogError::Damaged`] with everything that is sealed; [`LogError::OtherRun`] for a whole file whose seed,
+    /// settings, worlds, script or frames are not those of the digest that its end seals; [`LogError::NotALog`],
+    /// [`LogError::Export`],
     /// [`LogError::Version`]; if the part before the first tick is sealed but not valid, [`LogError::Content`],
     /// [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
     pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
@@ -45,7 +48,7 @@ impl Log {
             }
         };
         let (program, world_texts) = (preamble.program.clone(), preamble.world_texts.clone());
-        let mut read = ReadLog { log: Log { recipe, recorded }, program, world_texts };
+        let mut read = ReadLog { log: Log { recipe, recorded }, program, sealed: None, world_texts };
         let mut encoder = Encoder::begin(preamble, start)?;
         if !file.starts_with(encoder.piece()) {
             let offset = file.iter().zip(encoder.piece()).take_while(|(a, b)| a == b).count();
@@ -73,10 +76,26 @@ impl Log {
                 Err(kind) => return Err(damaged(Some(read), at, kind)),
             }
         }
-        match end(file, at, &mut encoder, &mut read.log.recorded, run.as_ref())? {
-            Ok(()) => Ok(read),
+        match end(file, at, &mut encoder, &read.log.recorded)? {
+            Ok(sealed) => with_digest(ReadLog { sealed, ..read }, run.as_ref()),
             Err(kind) => Err(damaged(Some(read), at, kind)),
         }
+    }
+}
+
+/// The log with the digest that its end seals.
+///
+/// # Errors
+/// [`LogError::OtherRun`] for a log with frames of another digest.
+fn with_digest(mut read: ReadLog, run: Option<&RunDigest>) -> Result<ReadLog, LogError> {
+    if let Recorded::Digests(digests) = &mut read.log.recorded {
+        digests.whole = read.sealed;
+    }
+    match (read.sealed, run.map(RunDigest::digest)) {
+        (Some(sealed), Some(held)) if sealed != held => {
+            Err(LogError::OtherRun(Box::new(OtherRun { read, sealed, held })))
+        }
+        _ => Ok(read),
     }
 }
 
@@ -140,36 +159,32 @@ fn next_minute(file: &[u8], at: usize, encoder: &mut Encoder) -> Result<Vec<u64>
     Ok(digests.to_vec())
 }
 
-/// Checks the end of the file; in a log of digests it holds the whole run's digest, which is kept.
+/// Checks the end of the file. Returns the run's digest that it seals, which a log of digests always has.
 fn end(
     file: &[u8],
     at: usize,
     encoder: &mut Encoder,
-    recorded: &mut Recorded,
-    run: Option<&RunDigest>,
-) -> Result<Result<(), DamageKind>, LogError> {
-    let digest = match (&recorded, run) {
-        (Recorded::Digests(digests), _) => match run_digest(file, at) {
-            Ok(whole) if digests.after(digests.ticks) == Some(whole.0 as u64) => whole,
-            Ok(_) => return Ok(Err(DamageKind::Changed)),
-            Err(kind) => return Ok(Err(kind)),
-        },
-        (Recorded::Frames { .. }, run) => run.map_or(Digest(0), RunDigest::digest),
+    recorded: &Recorded,
+) -> Result<Result<Option<Digest>, DamageKind>, LogError> {
+    let is_without = record_at(file, at).is_some_and(|record| record.opcode == opcode::DATA_END);
+    let sealed = match recorded {
+        Recorded::Frames { .. } if is_without => Ok(None),
+        Recorded::Frames { .. } => run_digest(file, at).map(Some),
+        Recorded::Digests(digests) => run_digest(file, at).and_then(|whole| {
+            let is_last = digests.after(digests.ticks) == Some(whole.0 as u64);
+            if is_last { Ok(Some(whole)) } else { Err(DamageKind::Changed) }
+        }),
     };
-    encoder.finish(digest)?;
-    Ok(match compare(file, at, encoder.piece()) {
-        Ok(()) if file.len() == at + encoder.piece().len() => {
-            if let Recorded::Digests(digests) = recorded {
-                digests.whole = Some(digest);
-            }
-            Ok(())
-        }
-        Ok(()) => Err(DamageKind::Changed),
-        Err(kind) => Err(kind),
-    })
+    let sealed = match sealed {
+        Ok(sealed) => sealed,
+        Err(kind) => return Ok(Err(kind)),
+    };
+    encoder.finish(sealed)?;
+    Ok(compare(file, at, encoder.piece())
+        .and_then(|()| if file.len() == at + encoder.piece().len() { Ok(sealed) } else { Err(DamageKind::Changed) }))
 }
 
-/// The digest of the whole run in the last piece of a log of digests.
+/// The digest of the whole run in the last piece of a log.
 fn run_digest(file: &[u8], at: usize) -> Result<Digest, DamageKind> {
     let records = piece(file, at)?;
     let [Record { opcode: RUN_DIGEST, content, .. }, _] = records[..] else { return Err(DamageKind::Changed) };

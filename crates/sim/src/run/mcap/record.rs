@@ -9,7 +9,7 @@ pub use mcap::records::op as opcode;
 pub const SEAL: u8 = 0x80;
 /// The opcode of a record of a digest log that holds digests of seconds.
 pub const DIGESTS: u8 = 0x81;
-/// The opcode of the record of a digest log that holds the whole run's digest.
+/// The opcode of the record that holds the whole run's digest, in the end of a log.
 pub const RUN_DIGEST: u8 = 0x82;
 
 /// Reads values from the front of a slice; `None` if there are too few bytes. A length that was read never causes an

@@ -102,7 +102,7 @@ impl<W: Write> LogWriter<W> {
     /// # Errors
     /// As [`finish`](Self::finish).
     pub fn end(&mut self) -> Result<(), LogError> {
-        self.encoder.finish(self.run.digest())?;
+        self.encoder.finish(Some(self.run.digest()))?;
         self.write_piece()?;
         Ok(self.out.flush()?)
     }
@@ -164,7 +164,7 @@ impl Log {
             encoder.put_digests(digests, std::cmp::min(minute * MAX_DIGESTS as u64 * DIGEST_TICKS, ticks))?;
             out.put(encoder.piece())?;
         }
-        encoder.finish(whole)?;
+        encoder.finish(Some(whole))?;
         out.put(encoder.piece())?;
         Ok(out.flush()?)
     }

@@ -1,12 +1,13 @@
 //! Changes of a world in a run: refused where a robot stands.
 
+use std::collections::BTreeMap;
+
 use bevy::prelude::*;
 
 use super::roster::{ObstacleRoster, WorldObstacles, place, refresh, wanted, with_roster};
+use super::standing_parts::StandingParts;
 use crate::run::WorldEvent;
-use crate::simulation::{Placement, Residents, ResidesIn, RobotId, RobotName, RobotOps};
-use motion_lab_core::collision::touch;
-use motion_lab_core::geometry::Placed;
+use crate::simulation::{Placement, RobotName};
 
 /// A change of a world that was refused. The world stays as it was.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -26,52 +27,49 @@ pub struct ChangeRefused {
 #[derive(Resource, Default, Debug)]
 pub(crate) struct RefusedChanges(pub(crate) Vec<ChangeRefused>);
 
-/// The first robot that stands where an obstacle would be.
-fn in_the_way(world: &World, ground: &WorldObstacles, number: usize, placement: &Placement) -> Option<String> {
-    if ground.placement(number) == Some(*placement) {
-        return None;
-    }
-    let pieces: Vec<Placed> = ground.placed(number, placement)?.placed().collect();
-    let mut robots: Vec<(RobotId, Entity)> = world
-        .get::<Residents>(ground.entity())?
-        .iter()
-        .filter(|robot| world.get::<ResidesIn>(*robot).is_some_and(|of| of.0 == ground.entity()))
-        .filter_map(|robot| Some((*world.get::<RobotId>(robot)?, robot)))
-        .collect();
-    robots.sort_unstable();
-    let stands = |robot: Entity| {
-        let footprint = world.get::<RobotOps>(robot).and_then(|ops| (ops.footprint)(world, robot));
-        footprint.is_some_and(|f| f.parts().iter().any(|part| pieces.iter().any(|piece| touch(part.placed(), piece))))
-    };
-    let (_, robot) = robots.into_iter().find(|(_, robot)| stands(*robot))?;
-    Some(world.get::<RobotName>(robot)?.name.clone())
-}
-
 /// Why a change would be refused now; `None` if it would not.
 pub(crate) fn refusal(world: &World, event: &WorldEvent) -> Option<ChangeRefused> {
     let roster = world.resource::<ObstacleRoster>();
     let ground = roster.grounds.get(roster.world(&event.world)?)?;
-    let (number, placement) = wanted(ground, &event.change)?;
-    let robot = in_the_way(world, ground, number, &placement)?;
+    refused(world, ground, &StandingParts::of(world, ground.entity()), event, wanted(ground, &event.change)?)
+}
+
+/// Why a change would be refused that asks for this placement of the obstacle of this number.
+fn refused(
+    world: &World,
+    ground: &WorldObstacles,
+    standing: &StandingParts,
+    event: &WorldEvent,
+    (number, placement): (usize, Placement),
+) -> Option<ChangeRefused> {
+    if ground.placement(number) == Some(placement) {
+        return None;
+    }
+    let robot = standing.first_touching(ground.placed(number, &placement)?.placed())?;
+    let robot = world.get::<RobotName>(robot)?.name.clone();
     let (world, obstacle) = (event.world.clone(), event.change.name().to_owned());
     Some(ChangeRefused { tick: event.tick, world, obstacle, robot })
 }
 
-/// Makes the changes of a tick, in their order. A refused one changes nothing, and is reported.
+/// Makes the changes of a tick, in their order: each meets what those before it have made. A refused one changes
+/// nothing, and is reported. The scenes follow once, for no change asks them.
 pub(crate) fn make(world: &mut World, events: &[WorldEvent]) {
-    for event in events {
-        if let Some(refused) = refusal(world, event) {
-            world.resource_mut::<RefusedChanges>().0.push(refused);
-            continue;
-        }
-        with_roster(world, |world, roster| {
-            let number = roster.world(&event.world);
-            if let Some(ground) = number.and_then(|w| roster.grounds.get_mut(w))
-                && let Some((number, placement)) = wanted(ground, &event.change)
-            {
-                place(ground, number, placement);
-            }
-            refresh(world, roster);
-        });
+    if events.is_empty() {
+        return;
     }
+    with_roster(world, |world, roster| {
+        // robots stand where they are while worlds change
+        let mut standing = BTreeMap::new();
+        for event in events {
+            let Some(w) = roster.world(&event.world) else { continue };
+            let Some(ground) = roster.grounds.get_mut(w) else { continue };
+            let Some((number, placement)) = wanted(ground, &event.change) else { continue };
+            let parts = standing.entry(w).or_insert_with(|| StandingParts::of(world, ground.entity()));
+            match refused(world, ground, parts, event, (number, placement)) {
+                Some(refused) => world.resource_mut::<RefusedChanges>().0.push(refused),
+                None => place(ground, number, placement),
+            }
+        }
+        refresh(world, roster);
+    });
 }

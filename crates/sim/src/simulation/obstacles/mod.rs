@@ -3,4 +3,5 @@
 pub(crate) mod change;
 pub(crate) mod dress;
 pub(crate) mod roster;
+mod standing_parts;
 pub(crate) mod start;

@@ -179,7 +179,18 @@ impl WorldObstacles {
         if self.changed.is_empty() {
             return Arc::clone(&self.start);
         }
-        let mut model = WorldModel { obstacles: Vec::new(), ..WorldModel::clone(&self.start) };
+        // the obstacles, of which there may be many, are not copied first
+        let WorldModel { name, bounds, obstacles: _, doors, places, marks, routes, robots } = &*self.start;
+        let mut model = WorldModel {
+            name: name.clone(),
+            bounds: *bounds,
+            obstacles: Vec::with_capacity(self.entries.len()),
+            doors: doors.clone(),
+            places: places.clone(),
+            marks: marks.clone(),
+            routes: routes.clone(),
+            robots: robots.clone(),
+        };
         for (number, entry) in self.entries.iter().enumerate() {
             if let ShapeSource::Door(i) = entry.source {
                 model.doors[i].open = !entry.now.present;

@@ -33,14 +33,19 @@ impl Default for Keyframes {
     }
 }
 
-/// The memory that a frame without scans takes, bytes: its lists, what lies on the heap beyond them, and its share of
-/// the map's nodes, which may be no more than half full.
+/// The memory that a frame without scans takes, bytes: its lists, and its share of the map's nodes, which may be no
+/// more than half full.
 fn size_of_frame(frame: &Frame) -> usize {
+    size_of_lists(frame) + 3 * size_of::<(u64, Frame)>()
+}
+
+/// The memory that the lists of a frame take, but for its scans, bytes: with what lies on the heap beyond them.
+pub(crate) fn size_of_lists(frame: &Frame) -> usize {
     // lists of up to four numbers need no heap
     let heap = |list: &[f64]| if list.len() > 4 { size_of_val(list) } else { 0 };
     let beyond = |r: &RobotState| heap(&r.configuration) + heap(&r.extra) + heap(&r.target);
     let robots = frame.robots.len() * size_of::<RobotState>() + frame.robots.iter().map(beyond).sum::<usize>();
-    robots + frame.obstacles.len() * size_of::<ObstacleState>() + 3 * size_of::<(u64, Frame)>()
+    robots + frame.obstacles.len() * size_of::<ObstacleState>()
 }
 
 impl Keyframes {

@@ -5,7 +5,7 @@ use std::fmt;
 use bevy::prelude::*;
 
 use motion_lab_core::sensors::SensorError;
-use motion_lab_core::worlds::MAX_SENSORS;
+use motion_lab_core::worlds::{AllRaysError, MAX_SENSORS};
 
 /// A sensor that is not taken into the run: a message to whoever shows the run, and kept in
 /// [`SensorRoster::refused`](crate::simulation::SensorRoster::refused).
@@ -41,6 +41,9 @@ pub enum SensorRefusal {
     /// One sensor too many.
     #[error("a robot has at most {MAX_SENSORS} sensors with names")]
     TooMany,
+    /// One with which the run would have too many rays in all.
+    #[error(transparent)]
+    AllRays(#[from] AllRaysError),
     /// A number out of range.
     #[error(transparent)]
     Numbers(#[from] SensorError),

@@ -10,6 +10,7 @@ use crate::simulation::RobotOps;
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::random::Stream;
 use motion_lab_core::sensors::{BeamModel, FanSensor, RangeSensor};
+use motion_lab_core::worlds::{AllRaysError, RayCount};
 
 /// Largest number of refusals that are kept.
 const MAX_REFUSED: usize = 1000;
@@ -22,6 +23,8 @@ pub struct SensorRoster {
     /// Scanners for the sensors, which many of them share.
     pub(crate) scanners: Scanners,
     refused: Vec<SensorRefused>,
+    /// The rays of the sensors.
+    rays: RayCount,
 }
 
 #[derive(Debug)]
@@ -42,7 +45,12 @@ pub(crate) struct RunSensor {
 impl SensorRoster {
     /// The roster of a run without sensors.
     pub(crate) fn none() -> Self {
-        SensorRoster { sensors: Vec::new(), scanners: Scanners::default(), refused: Vec::new() }
+        SensorRoster {
+            sensors: Vec::new(),
+            scanners: Scanners::default(),
+            refused: Vec::new(),
+            rays: RayCount::default(),
+        }
     }
 
     /// The sensors' entities, in order.
@@ -53,6 +61,13 @@ impl SensorRoster {
     /// The sensors that were not taken into the run, in the order they were met.
     pub fn refused(&self) -> &[SensorRefused] {
         &self.refused
+    }
+
+    /// Takes a sensor, unless the run would have too many rays with it.
+    pub(super) fn take(&mut self, sensor: RunSensor) -> Result<(), AllRaysError> {
+        self.rays.add(u64::from(sensor.rays.sensor.n_rays))?;
+        self.sensors.push(sensor);
+        Ok(())
     }
 
     /// Numbers the patterns of rays that the sensors have.
@@ -81,5 +96,31 @@ impl RunSensor {
         let frame = (world.get::<RobotOps>(self.robot)?.mount_pose)(world, self.robot)?;
         // composed with the identity, the heading would be wrapped
         Some(if self.mount == Pose2::IDENTITY { frame } else { frame.compose(&self.mount) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sensor_with_which_there_would_be_too_many_rays_is_not_taken() {
+        let sensor = |n_rays| RunSensor {
+            entity: Entity::PLACEHOLDER,
+            robot: Entity::PLACEHOLDER,
+            id: 0,
+            name: "ahead".into(),
+            rays: RangeSensor { n_rays, max_range: 1.0 }.into(),
+            mount: Pose2::IDENTITY,
+            noise: None,
+            fan: 0,
+        };
+        let mut roster = SensorRoster::none();
+        (0..399).for_each(|_| roster.take(sensor(100_000)).unwrap());
+        assert_eq!(roster.take(sensor(100_001)), Err(AllRaysError(40_000_001)));
+        roster.take(sensor(99_999)).unwrap();
+        roster.take(sensor(1)).unwrap();
+        assert_eq!(roster.take(sensor(1)), Err(AllRaysError(40_000_001)));
+        assert_eq!(roster.sensors.len(), 401);
     }
 }

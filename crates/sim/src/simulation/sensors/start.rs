@@ -76,7 +76,7 @@ fn take_sensors_of(
         if entities.iter().any(|&other| other != entity && !are_alike(world, entity, other)) {
             refusals.push(refuse(SensorRefusal::NameOfConfiguration));
         }
-        let taken = &mut roster.sensors;
+        let taken = &roster.sensors;
         let named = taken[first..].iter().filter(|sensor| !sensor.name.is_empty()).count();
         // a robot's first sensor has the stream of a robot with one sensor
         let beam = beam(&name.name);
@@ -84,7 +84,7 @@ fn take_sensors_of(
         match make(world, &Request { robot, entity, name: sensor, stream: &stream }) {
             Ok(_) if sensor.is_empty() && !is_given => refusals.push(refuse(SensorRefusal::Unnamed)),
             Ok(_) if named == MAX_SENSORS => refusals.push(refuse(SensorRefusal::TooMany)),
-            Ok(sensor) => taken.push(sensor),
+            Ok(sensor) => refusals.extend(roster.take(sensor).err().map(|reason| refuse(reason.into()))),
             Err(reason) => refusals.push(refuse(reason)),
         }
     }

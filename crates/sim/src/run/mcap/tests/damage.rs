@@ -4,7 +4,7 @@ use super::*;
 use crate::run::mcap::record::{SEAL, opcode, record_at};
 use crate::run::mcap::record_writer::put_seal;
 
-/// The offsets at which the pieces of a file end: the part before the first tick, then each tick.
+/// The offsets at which the pieces of a file end: the part before the first tick, then each tick, then the digest.
 fn seals(file: &[u8]) -> Vec<usize> {
     let mut ends = Vec::new();
     let mut at = 8;
@@ -29,7 +29,8 @@ fn check_damaged(file: &[u8], first_bad: usize, original: &Log, seals: &[usize])
         }
         Err(LogError::Damaged(damaged)) => {
             let DamagedLog { recovered, sealed_ticks, first_unsealed_offset, kind } = *damaged;
-            let Some(pieces_after_first) = whole_pieces.checked_sub(1) else {
+            // the seal of the digest belongs to no tick
+            let Some(pieces_after_first) = whole_pieces.min(4).checked_sub(1) else {
                 assert!(recovered.is_none() && sealed_ticks == 0 && first_unsealed_offset == 0);
                 return kind;
             };
@@ -50,10 +51,10 @@ fn a_file_cut_anywhere_gives_its_sealed_beginning() {
     let log = fixture::log();
     let file = written(&log);
     let seals = seals(&file);
-    assert_eq!(seals.len(), 4, "the part before the first tick, and three ticks");
+    assert_eq!(seals.len(), 5, "the part before the first tick, three ticks, and the run's digest");
     let mut checked = Vec::new();
     Log::read_mcap_with(&file, |bytes| checked.push(bytes as usize)).unwrap();
-    assert_eq!(checked, seals[1..], "a reader is watched from tick to tick");
+    assert_eq!(checked, seals[1..4], "a reader is watched from tick to tick");
     for cut in 0..file.len() {
         assert_eq!(check_damaged(&file[..cut], cut, &log, &seals), DamageKind::Cut, "cut at {cut}");
     }
@@ -98,6 +99,10 @@ fn nothing_can_be_appended_or_put_in_unseen() {
     }
     let without_a_tick = [&file[..seals[1]], &file[seals[2]..]].concat();
     check_damaged(&without_a_tick, seals[1], &log, &seals);
+    let without_the_digest = [&file[..seals[3]], &file[seals[4]..]].concat();
+    check_damaged(&without_the_digest, seals[3], &log, &seals);
+    let twice_the_digest = [&file[..seals[4]], &file[seals[3]..]].concat();
+    check_damaged(&twice_the_digest, seals[4], &log, &seals);
     let without_the_end = [&file[..seals[2]], &file[seals[3]..]].concat();
     check_damaged(&without_the_end, seals[2], &log, &seals);
 }

@@ -3,6 +3,7 @@
 mod damage;
 mod peers;
 mod schema;
+mod sealed_digest;
 
 use std::slice::from_ref;
 
