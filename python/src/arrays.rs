@@ -44,8 +44,6 @@ pub struct ManyRows<'py> {
     name: &'static str,
     /// What the caller gave.
     given: Bound<'py, PyAny>,
-    /// All of its axes but the last.
-    own_leading: Vec<usize>,
     array: PyReadonlyArrayDyn<'py, f64>,
 }
 
@@ -104,9 +102,7 @@ impl RowKind {
             Some(width) => return Err(self.refuse(name, &format!("{width} coordinates"))),
             None => return Err(self.refuse(name, "no axis")),
         }
-        let array = borrowed(name, &array)?;
-        let own_leading = array.shape().split_last().map_or(Vec::new(), |(_, leading)| leading.to_vec());
-        Ok(ManyRows { name, given: given.clone(), own_leading, array })
+        Ok(ManyRows { name, given: given.clone(), array: borrowed(name, &array)? })
     }
 }
 
@@ -253,14 +249,10 @@ impl<'py> ManyRows<'py> {
         Ok(CheckedRows { blocks })
     }
 
-    /// Names the row that is none, in the axes that the caller gave, which may be fewer than it was broadcast to.
+    /// Names the row that is none.
     fn refused(&self, py: Python<'_>, first: usize, error: RowsError) -> PyErr {
         let RowsError::Row { row, reason } = error else { return PyValueError::new_err(error.to_string()) };
-        let mut index = index_of(first + row, self.leading());
-        index.drain(..index.len() - self.own_leading.len());
-        for (i, length) in index.iter_mut().zip(&self.own_leading) {
-            *i = (*i).min(length.saturating_sub(1));
-        }
+        let index = index_of(first + row, self.leading());
         configuration_error(py, self.name, &index, &reason.to_string())
     }
 

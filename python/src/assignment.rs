@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -10,10 +11,11 @@ use motion_lab_core::worlds::World;
 use motion_lab_sim::course::{Assignment, AssignmentFile, Attempt, Criterion, Grade, Submission};
 
 use crate::errors::Error;
+use crate::file::{MAX_TEXT, text_of};
 use crate::natural::counted;
 use crate::run::{PyRun, read};
 use crate::script::script;
-use crate::world::{PyWorld, os_error};
+use crate::world::PyWorld;
 
 /// How long grading goes on before somebody may stop it.
 const PIECE: Duration = Duration::from_millis(20);
@@ -117,8 +119,11 @@ fn submission(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Submission> 
         return Ok(Submission::Log(Box::new((*run.get().log).clone())));
     }
     match given.extract::<PathBuf>() {
-        Ok(path) if path.extension().is_some_and(|ending| ending == "mcap") => {
+        Ok(path) if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mcap")) => {
             Ok(Submission::Log(Box::new((*read(py, path)?.log).clone())))
+        }
+        _ if given.is_none() => {
+            Err(PyTypeError::new_err("a submission is a Run, a script, or the path of either, not None"))
         }
         _ => script(Some(given)).map(Submission::Script),
     }
@@ -126,14 +131,15 @@ fn submission(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Submission> 
 
 #[pymethods]
 impl PyAssignment {
-    /// Read an assignment's file. Its world is a built-in one, a file seen from its own folder, or `world`.
+    /// Read an assignment's file of at most 64 MiB. Its world is a built-in one, a file seen from its own folder, or
+    /// `world`.
     ///
     /// Raises OSError for a file that cannot be read, WorldError for a world that there is not, and Error, with file,
     /// line, column and item, for what is no assignment in it.
     #[staticmethod]
     #[pyo3(signature = (path, *, world = None))]
     fn read(py: Python<'_>, path: PathBuf, world: Option<&Bound<'_, PyAny>>) -> PyResult<Self> {
-        let text = py.detach(|| std::fs::read_to_string(&path)).map_err(|error| os_error(&error, &path))?;
+        let text = text_of(py, &path, "an assignment", MAX_TEXT)?.map_err(Error::new_err)?;
         PyAssignment::of(py, &path.display().to_string(), &text, world, path.parent())
     }
 
@@ -174,8 +180,8 @@ impl PyAssignment {
     /// as `record` takes it. The frames of a run are not believed: one that is simulated otherwise is refused as
     /// forged.
     ///
-    /// Raises RunError for what is no script, LogError for what is no log. Ctrl+C stops it within 0.1 s, once a run was
-    /// simulated again.
+    /// Raises RunError for what is no script, and LogError for what is no log, or one that was changed after it was
+    /// recorded. Ctrl+C stops it within 0.1 s, once a run was simulated again.
     fn grade(&self, py: Python<'_>, submission: &Bound<'_, PyAny>) -> PyResult<PyGrade> {
         let submission = self::submission(py, submission)?;
         let (mut heard, mut stopped) = (Instant::now(), None);

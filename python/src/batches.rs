@@ -34,7 +34,7 @@ pub fn of_pairs<'py, R: Robot>(
     out: Option<&Bound<'py, PyAny>>,
     ask: impl Fn(&Rows<'_, R>, &Rows<'_, R>, &mut [bool]) -> Result<(), RowsError> + Send + Sync,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (a, b) = along(py, a, b)?;
+    let (a, b) = joined(py, checker.robot(), a, b)?;
     let (from, to) = both(py, checker.robot(), &a, &b)?;
     let mut answers = Answers::<bool>::new(py, out, a.leading(), &[&a, &b])?;
     let places = answers.places()?;
@@ -42,6 +42,20 @@ pub fn of_pairs<'py, R: Robot>(
         ask(&from.part(&part)?, &to.part(&part)?, places.get_mut(part).unwrap_or_default())
     })?;
     Ok(answers.into_object())
+}
+
+/// Both arguments along the axes that they share. What is broadcast is checked before, in the caller's own axes, also
+/// where it comes to no rows.
+pub fn joined<'py, R: Robot>(
+    py: Python<'py>,
+    robot: &R,
+    a: ManyRows<'py>,
+    b: ManyRows<'py>,
+) -> PyResult<(ManyRows<'py>, ManyRows<'py>)> {
+    if a.leading() != b.leading() {
+        both(py, robot, &a, &b)?;
+    }
+    along(py, a, b)
 }
 
 /// Both arguments, checked.
@@ -77,7 +91,7 @@ pub fn sweeps<'py, R: Robot>(
     (a, b): (ManyRows<'py>, ManyRows<'py>),
     out: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (a, b) = along(py, a, b)?;
+    let (a, b) = joined(py, checker.robot(), a, b)?;
     both(py, checker.robot(), &a, &b)?;
     let mut answers = Answers::<bool>::new(py, out, a.leading(), &[&a, &b])?;
     let (from, to, width) = (a.numbers()?, b.numbers()?, a.width());

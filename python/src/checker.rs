@@ -8,8 +8,8 @@ use motion_lab_core::collision::{Checker, Collision};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::robots::{ConfigurationError, Hitch, Reach, Robot, Rusty, RustyDisc};
 
-use crate::arrays::{Given, ManyRows, OneRow, RowKind, along};
-use crate::batches::{both, numbered, of_pairs, of_rows, sweep_hits, sweeps};
+use crate::arrays::{Given, ManyRows, OneRow, RowKind};
+use crate::batches::{both, joined, numbered, of_pairs, of_rows, sweep_hits, sweeps};
 use crate::certificate::PyCertificate;
 use crate::errors::configuration_error;
 use crate::robot::{LabRobot, PyRobot};
@@ -312,7 +312,7 @@ impl PyChecker {
                 verdicts::edge(py, verdict.map_err(|reason| configuration_error(py, "a", &[], &reason.to_string()))?)
             }),
             Err((a, b)) => with_checker!(&self.checker, c => {
-                let (a, b) = along(py, a, b)?;
+                let (a, b) = joined(py, c.robot(), a, b)?;
                 let (from, to) = both(py, c.robot(), &a, &b)?;
                 verdicts::edges(py, a.leading(), |part| {
                     let mut found = vec![Err(ConfigurationError::NotFinite); part.len()];

@@ -253,23 +253,22 @@ impl PyRecorder {
         let run = &mut *run;
         let (ticks, robots) = (run.frame().tick, run.frame().robots.len());
         let refused = |error: LabRunError| RunError::new_err(error.to_string());
-        FrameList::try_new(run.frame(), ticks).map_err(|error| refused(error.into()))?;
+        let mut frames = FrameList::try_new(run.frame(), ticks).map_err(|error| refused(error.into()))?;
         let initial = interrupt::once(py, robots, || run.seek(0).cloned())?.map_err(refused)?;
-        let mut frames = Vec::new();
         let gathered = interrupt::until(py, robots, || {
             if run.frame().tick >= ticks {
-                return Some(());
+                return Some(Ok(()));
             }
-            frames.push(run.step().clone());
-            None
+            frames.push(run.step()).err().map(Err)
         });
+        let gathered = gathered.and_then(|kept| kept.map_err(|error| refused(error.into())));
         if let Err(stopped) = gathered {
             interrupt::once(py, robots, || run.seek(ticks).map(|_| ()))?.map_err(refused)?;
             return Err(stopped);
         }
         let config = TourConfig { ticks, ..run.config().clone() };
         let recipe = Recipe::new(config, (run.transport().seed(), run.script().clone()));
-        Ok(Log::with_frames(recipe, initial, frames).into())
+        Ok(Log::with_frames(recipe, initial, frames.into_frames()).into())
     }
 
     fn __repr__(&self) -> PyResult<String> {

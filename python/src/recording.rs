@@ -6,7 +6,7 @@ use pyo3::types::PyString;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::World;
-use motion_lab_sim::recording::{FrameList, Recorder};
+use motion_lab_sim::recording::{FrameList, FramesError, Recorder};
 use motion_lab_sim::run::{DIGEST_TICKS, Log, LogKind, Recipe, Recorded, RunDigest, RunInput, SecondDigests};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
@@ -112,19 +112,21 @@ pub fn recorded(py: Python<'_>, recipe: Recipe, kind: LogKind) -> PyResult<PyRun
     let recipe = Recipe { config: recorder.shared_config(), ..recipe };
     let (ticks, robots) = (recipe.config.ticks, recorder.frame().robots.len());
     let initial = recorder.frame().clone();
-    if kind == LogKind::Frames {
-        FrameList::try_new(&initial, ticks).map_err(|error| RunError::new_err(error.to_string()))?;
-    }
+    let too_many = |error: FramesError| RunError::new_err(error.to_string());
+    let kept = if kind == LogKind::Frames { ticks } else { 0 };
+    let mut frames = FrameList::try_new(&initial, kept).map_err(too_many)?;
     let mut run = RunDigest::new(&recipe, &initial);
-    let (start, mut frames, mut digests) = (run.lower_half(), Vec::new(), Vec::new());
-    interrupt::until(py, robots, || {
+    let (start, mut digests) = (run.lower_half(), Vec::new());
+    let recorded = interrupt::until(py, robots, || {
         let now = recorder.frame().tick;
         if now >= ticks {
-            return Some(());
+            return Some(Ok(()));
         }
         let frame = recorder.step();
         if kind == LogKind::Frames {
-            frames.push(frame.clone());
+            if let Err(error) = frames.push(frame) {
+                return Some(Err(error));
+            }
         } else {
             run.tick(frame);
             if frame.tick == ticks || frame.tick.is_multiple_of(DIGEST_TICKS) {
@@ -133,8 +135,9 @@ pub fn recorded(py: Python<'_>, recipe: Recipe, kind: LogKind) -> PyResult<PyRun
         }
         None
     })?;
+    recorded.map_err(too_many)?;
     let recorded = match kind {
-        LogKind::Frames => Recorded::Frames { initial, frames },
+        LogKind::Frames => Recorded::Frames { initial, frames: frames.into_frames() },
         LogKind::Digests => Recorded::Digests(SecondDigests { start, digests, ticks, whole: Some(run.digest()) }),
     };
     Ok(Log { recipe, recorded }.into())

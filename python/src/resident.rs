@@ -75,6 +75,15 @@ pub fn resident(py: Python<'_>, world: &World, name: &str, robot: &LabRobot, sta
         LabRobot::Reach3(arm) => ("reach3", Some(arm.sizes())),
         LabRobot::Hitch(car) => ("hitch", (car.sizes() != HITCH.sizes()).then(|| car.sizes())),
     };
+    let (coordinates, given) = (robot.coordinates(), start.len());
+    if given != coordinates.len() {
+        // of a car the number of coordinates would say whether it has its trailer
+        let (own, names) = (coordinates.len(), coordinates.join(", "));
+        return Err(refused(&format!(
+            "start has {given} coordinates, a {}'s configuration has {own}: {names}",
+            robot.class()
+        )));
+    }
     let plain = Resident::try_new(name, kind, start, None).map_err(|error| refused(&error))?;
     let own = match sizes {
         Some(sizes) => plain.try_with_sizes(sizes).map_err(|error| refused(&error))?,

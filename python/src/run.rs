@@ -17,14 +17,14 @@ use motion_lab_sim::run::{Digest, Frame, Log, LogError as LabLogError, LogKind};
 use motion_lab_sim::tour::TourConfig;
 
 use crate::errors::{LogError, RunError};
-use crate::file::replace;
+use crate::file::{os_error, replace};
 use crate::frame::PyFrame;
 use crate::interrupt;
 use crate::natural::{natural, natural_or_none};
 use crate::picture::{PyPicture, theme};
 use crate::table::{by_name, structured};
 use crate::verification::{PyDifference, PyVerification, verify};
-use crate::world::{PyWorld, os_error};
+use crate::world::PyWorld;
 
 /// A recorded run: a seed, worlds with their robots, inputs, and the frame of every tick of 0.05 s. `record` makes one,
 /// `read` reads one, and `Recorder.log` takes one of a run under way. The same seed, worlds and inputs give the same

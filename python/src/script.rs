@@ -9,7 +9,7 @@ use pyo3::types::{PyDict, PyString};
 use motion_lab_sim::run::{Event, MAX_CHANNEL, Quantized, RobotInput, Script, WorldChange, WorldEvent};
 
 use crate::errors::RunError;
-use crate::world::os_error;
+use crate::file::{MAX_TEXT, text_of};
 
 /// What an input to a robot may be.
 const INPUTS: &str = "drive, move_to, teleport, trailer, release";
@@ -54,7 +54,7 @@ fn no_script(given: &Bound<'_, PyAny>) -> PyErr {
 
 fn file(given: &Bound<'_, PyAny>) -> PyResult<Script> {
     let path: PathBuf = given.extract()?;
-    let text = given.py().detach(|| std::fs::read_to_string(&path)).map_err(|error| os_error(&error, &path))?;
+    let text = text_of(given.py(), &path, "a script", MAX_TEXT)?.map_err(RunError::new_err)?;
     parsed(&path.display().to_string(), &text)
 }
 

@@ -1,12 +1,10 @@
 //! Worlds: by name, out of a file, out of a text, out of arrays.
 
-use std::fs::File;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
-use pyo3::exceptions::{PyOSError, PyTypeError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString, PyTuple, PyType};
 
@@ -16,6 +14,7 @@ use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
 
 use crate::drawing::world_svg;
 use crate::errors::{nowhere_in_a_world, world_error};
+use crate::file::{os_error, text_of};
 use crate::natural::counted;
 use crate::picture::PyPicture;
 use crate::resident::{PyResident, resident};
@@ -104,15 +103,8 @@ impl PyWorld {
     /// no world.
     #[staticmethod]
     pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let shown = path.display().to_string();
-        let bytes = py.detach(|| read_bytes(&path)).map_err(|error| os_error(&error, &path))?;
-        let Some(bytes) = bytes else {
-            return Err(nowhere_in_a_world(py, format!("{shown}: a world file has at most {MAX_FILE} bytes")));
-        };
-        let Ok(text) = String::from_utf8(bytes) else {
-            return Err(nowhere_in_a_world(py, format!("{shown}: the file is not UTF-8 text")));
-        };
-        parsed(py, &shown, &text)
+        let text = text_of(py, &path, "a world file", MAX_FILE)?.map_err(|words| nowhere_in_a_world(py, words))?;
+        parsed(py, &path.display().to_string(), &text)
     }
 
     /// Make a world of the text of a world file. Errors call the text `name`.
@@ -279,26 +271,6 @@ impl PyWorld {
 fn parsed(py: Python<'_>, name: &str, text: &str) -> PyResult<PyWorld> {
     let world = py.detach(|| World::parse(name, text));
     world.map(PyWorld::from).map_err(|error| world_error(py, &error))
-}
-
-/// The bytes of a file; `None` where there are too many.
-fn read_bytes(path: &Path) -> io::Result<Option<Vec<u8>>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MAX_FILE + 1).read_to_end(&mut bytes)?;
-    Ok((bytes.len() as u64 <= MAX_FILE).then_some(bytes))
-}
-
-/// The error of a file as Python's own functions raise it: a `FileNotFoundError` with the file's name.
-pub fn os_error(error: &io::Error, path: &Path) -> PyErr {
-    match error.raw_os_error() {
-        // Rust's words end with the number, which Python adds itself
-        Some(number) => {
-            let words = error.to_string();
-            let words = words.split(" (os error").next().unwrap_or_default().to_owned();
-            PyOSError::new_err((number, words, path.display().to_string()))
-        }
-        None => PyOSError::new_err(format!("{}: {error}", path.display())),
-    }
 }
 
 /// An obstacle of a world.

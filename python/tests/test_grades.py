@@ -90,6 +90,8 @@ def test_a_run_is_simulated_again_and_a_forged_one_refused(tmp_path):
     assert exam.grade(run)
     run.write(tmp_path / "mine.mcap")
     assert exam.grade(tmp_path / "mine.mcap") and exam.grade(str(tmp_path / "mine.mcap"))
+    run.write(tmp_path / "MINE.MCAP")
+    assert exam.grade(tmp_path / "MINE.MCAP")
     elsewhere = exam.grade(ml.record("apartment", ticks=3))
     assert not elsewhere and (elsewhere.points, elsewhere.attempts) == (0, ())
     assert elsewhere.refused == "the log was recorded in another world, or from another start"
@@ -122,8 +124,16 @@ def test_what_is_no_assignment_is_refused_with_its_place(tmp_path):
     exam = ml.Assignment.parse(FORWARD)
     with pytest.raises(FileNotFoundError):
         exam.grade(tmp_path / "none.mcap")
-    with pytest.raises(TypeError):
-        exam.grade(7)
+    for none in [7, None]:
+        with pytest.raises(TypeError):
+            exam.grade(none)
+    (tmp_path / "long.ron").write_bytes(b" " * ((64 << 20) + 1))
+    for read in [ml.Assignment.read, exam.grade]:
+        with pytest.raises(ml.Error, match="long.ron: an? (assignment|script) has at most 67108864 bytes"):
+            read(tmp_path / "long.ron")
+    (tmp_path / "latin.ron").write_bytes(b"Assignment(\xe9)")
+    with pytest.raises(ml.Error, match="latin.ron: the file is not UTF-8 text"):
+        ml.Assignment.read(tmp_path / "latin.ron")
     (tmp_path / "bad.mcap").write_bytes(b"no log")
     with pytest.raises(ml.LogError, match="bad.mcap"):
         exam.grade(tmp_path / "bad.mcap")

@@ -229,3 +229,20 @@ def test_the_version_is_that_of_the_package():
     from importlib.metadata import version
 
     assert ml.__version__ == version("motion-lab")
+
+
+def test_a_row_that_is_none_is_named_in_its_own_axes_also_where_it_is_broadcast():
+    disc = ml.Checker("apartment", ml.Disc())
+    good, bad = np.full((3, 4, 2), 2.0), np.full((4, 2), 2.0)
+    bad[2, 1] = np.nan
+    for ask in [disc.edge_free, disc.edge, disc.swept]:
+        for a, b, name, row in [
+            (good, bad, "b", (2,)),
+            (bad, good, "a", (2,)),
+            (good, bad[2:3], "b", (0,)),
+            (np.empty((0, 4, 2)), bad, "b", (2,)),
+            (good, np.broadcast_to(bad, (3, 4, 2)), "b", (0, 2)),
+        ]:
+            with pytest.raises(ml.ConfigurationError) as refused:
+                ask(a, b)
+            assert (refused.value.name, refused.value.row) == (name, row)

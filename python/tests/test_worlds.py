@@ -233,7 +233,10 @@ def test_a_robot_that_a_world_has_no_room_for_is_refused():
         (taken, ml.Rusty(), (1, 1, 0), "something in the world has this name already"),
         (world.obstacles[0].name, ml.Rusty(), (1, 1, 0), "something in the world has this name already"),
         (" Rover", ml.Rusty(), (1, 1, 0), "blanks"),
-        ("R", ml.Rusty(), (1, 1), "coordinates"),
+        ("R", ml.Rusty(), (1, 1), "start has 2 coordinates, a Rusty's configuration has 3: x, y, theta"),
+        # neither gains a trailer nor loses one
+        ("R", ml.Hitch(), (5, 4, 0, 0), "start has 4 coordinates, a Hitch's configuration has 3: x, y, theta"),
+        ("R", ml.Hitch(trailer=True), (5, 4, 0), "start has 3 coordinates, a Hitch's configuration has 4"),
         ("R", ml.Rusty(), (1, 1, np.nan), "finite"),
         ("R", ml.Rusty(), (-1, 1, 0), "outside"),
         ("R", ml.Rusty(5.0), (6, 4, 0), "a diameter of 10 m"),

@@ -239,6 +239,7 @@ fn shown(world: &World, robot: &RobotView, between: f64) -> CockpitRobot {
             .filter(|_| robot.kind == RobotKind::HITCH.name && robot.coordinates.len() == 3)
             .and_then(|p| no_room(world, robot, p)),
         put: pending::put(world, robot),
+        put_since_goal: pending::put_since_goal(world, robot),
     }
 }
 

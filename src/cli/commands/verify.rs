@@ -97,7 +97,11 @@ impl VerifyReport {
             LogKind::Digests => simulated,
         };
         let divergence = difference.map(|difference| difference.to_string());
-        let divergence = divergence.or_else(|| unsealed(digest, *sealed_digest)).or_else(|| expected.refusal(digest));
+        let divergence = divergence.or_else(|| unsealed(digest, *sealed_digest));
+        let divergence = divergence.or_else(|| match source.damage {
+            Some(_) if expected.is_any() => Some("the log is not whole: its digest cannot be the expected one".into()),
+            _ => expected.refusal(digest),
+        });
         let (ticks, sealed_digest) = (log.recipe.config.ticks, sealed_digest.map(|digest| digest.to_string()));
         Ok(VerifyReport { file: None, ticks, sealed, identical, digest: digest.to_string(), sealed_digest, divergence })
     }

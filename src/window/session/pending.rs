@@ -1,5 +1,7 @@
 //! What comes to the robots with the next tick, and where inputs put them.
 
+use std::ops::RangeInclusive;
+
 use bevy::prelude::*;
 
 use crate::window::ui::{CockpitRobot, Interface, ShownClearance, TRAIL, footprint_at, joints, turned};
@@ -8,7 +10,7 @@ use motion_lab_core::configuration::{AnyConfiguration, Coordinates};
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::anatomy::held_before;
-use motion_lab_sim::run::{Event, RobotInput, Script, WorldChange};
+use motion_lab_sim::run::{Event, Quantized, RobotInput, Script, WorldChange};
 use motion_lab_sim::simulation::{PendingInput, Playback, RobotView, Roster, Transport, WorldScene};
 
 /// A configuration as a pane says it.
@@ -103,9 +105,47 @@ fn put_by(script: &Script, robot: &str, tick: u64) -> u64 {
     events.take_while(|e| e.tick + TRAIL >= tick).find(is_put).map_or(0, |e| e.tick)
 }
 
+/// Whether an input has put a robot somewhere since its exercise began, which no wheel does; not where it begins.
+pub fn put_since_goal(world: &World, robot: &RobotView) -> bool {
+    let goal = world.resource::<Interface>().0.goal.as_ref().filter(|(name, _)| *name == robot.name);
+    let Some((_, goal)) = goal else { return false };
+    let begins = goal.is_put.then_some(&goal.start[..]);
+    let script = world.resource::<PendingInput>().script();
+    goal.tick.is_some_and(|from| put_since(script, &robot.name, from..=world.resource::<Transport>().tick(), begins))
+}
+
+/// Whether an input of these ticks puts a robot somewhere. One of the first tick counts where the exercise begins with
+/// the robot put at `begins`, and the input puts it elsewhere.
+fn put_since(script: &Script, robot: &str, ticks: RangeInclusive<u64>, begins: Option<&[f64]>) -> bool {
+    let events = script.events[..script.events.partition_point(|e| e.tick <= *ticks.end())].iter().rev();
+    let elsewhere = |to: &[Quantized]| {
+        begins.is_some_and(|start| !to.iter().map(|c| Some(*c)).eq(start.iter().map(|c| Quantized::try_new(*c))))
+    };
+    events.take_while(|e| e.tick >= *ticks.start()).any(|e| match &e.input {
+        RobotInput::Teleport(to) if e.robot == robot => e.tick > *ticks.start() || elsewhere(to),
+        _ => false,
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_car_that_was_put_since_its_exercise_began_was_put_however_long_ago() {
+        let quantized = |x: f64| vec![Quantized::try_new(x).unwrap()];
+        let put =
+            |tick, robot: &str, x| Event { tick, robot: robot.to_owned(), input: RobotInput::Teleport(quantized(x)) };
+        let script =
+            Script { events: vec![put(5, "Car", 1.0), put(5, "Car", 2.0), put(9, "Van", 1.0)], ..Script::empty() };
+        let since = |ticks, begins: Option<&[f64]>| put_since(&script, "Car", ticks, begins);
+        assert!(since(4..=5, None) && since(4..=5000, None), "no tick is too long ago");
+        assert!(!since(4..=4, None) && !since(6..=5000, None), "before it, and after it");
+        assert!(!since(5..=5000, None), "as the goal is set, where the car stands counts");
+        assert!(since(5..=5, Some(&[1.0])), "put back to 1, then lifted to 2 in the same tick");
+        let back = Script { events: vec![put(5, "Car", 1.0)], ..Script::empty() };
+        assert!(!put_since(&back, "Car", 5..=9, Some(&[1.0])), "put back to where it begins");
+    }
 
     #[test]
     fn a_robot_was_put_by_its_own_last_input_up_to_now() {

@@ -77,10 +77,12 @@ pub fn learnt(lesson: Lesson, model: &Dashboard, state: &UiState) -> String {
         HintTask::TwoHeadings => twins::both_of(RobotKind::HITCH, model, state),
         HintTask::Held => {
             let robots = model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
-            let of_rover = robots.filter(|robot| robot.kind == RobotKind::RUSTY.name).find_map(|robot| {
-                let before = robot.clearance.as_ref()?;
-                before.held_before.as_ref().map(|_| before.words(0.0))
-            });
+            let of_rover = robots
+                .filter(|robot| robot.kind == RobotKind::RUSTY.name && robot.manual && robot.flash)
+                .find_map(|robot| {
+                    let before = robot.clearance.as_ref()?;
+                    before.held_before.as_ref().map(|_| before.words(0.0))
+                });
             of_rover.map(|held| format!("It is {held}: its next step would touch, and its clearance never comes to 0."))
         }
         _ => None,

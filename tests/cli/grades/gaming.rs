@@ -48,7 +48,7 @@ fn the_empty_script_earns_nothing_in_any_assignment_of_the_docs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let read = |path: &str| fs::read_to_string(root.join(path)).unwrap();
     let mut all: Vec<String> = assignments(&run(&["grade", "--help"]).done());
-    for page in ["README.md", "docs/cli.md", "docs/web/course.md", "docs/formats.md", "src/course/mod.rs"] {
+    for page in ["README.md", "docs/cli.md", "docs/web/course.md", "docs/formats.md", "crates/sim/src/course/mod.rs"] {
         all.extend(assignments(&read(page)));
     }
     assert!(all.len() >= 3, "{}", all.len());

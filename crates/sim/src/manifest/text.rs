@@ -94,7 +94,7 @@ mod tests {
                 // a sentence or two that fit a row of the window
                 let learnt = &hint.learnt;
                 assert!(learnt.ends_with('.') && learnt.len() <= 105 && !learnt.contains('\n'), "{learnt}");
-                assert_ne!((learnt, learnt), (&hint.text, &widget.misconception));
+                assert!(*learnt != hint.text && *learnt != widget.misconception, "{learnt}");
             }
             for entry in &widget.key {
                 assert_eq!(entry.role().name(), entry.role, "{}", widget.id);

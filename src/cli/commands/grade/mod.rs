@@ -194,7 +194,9 @@ fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Result<Sub
     }
     if ending(path) == "mcap" {
         let log = Log::read_mcap(&read_bytes(path, MAX_LOG)?).map_err(|error| error.to_string());
-        let expected = |log: &Log| log.digest().and_then(|digest| expected.refusal(digest)).map_or(Ok(()), Err);
+        // the digest of a long log takes a while
+        let digest = |log: &Log| if expected.is_any() { log.digest() } else { None };
+        let expected = |log: &Log| digest(log).and_then(|digest| expected.refusal(digest)).map_or(Ok(()), Err);
         let submission = log.and_then(|read| expected(&read.log).map(|()| Submission::Log(Box::new(read.log))));
         return Ok(submission);
     }

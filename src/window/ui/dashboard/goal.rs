@@ -1,7 +1,7 @@
 //! `ParkingExercise`, "one metre to the left": the trailer is to end a metre left of where it stood, facing the same
 //! way.
 
-use crate::window::ui::{CockpitRobot, TRAIL};
+use crate::window::ui::CockpitRobot;
 use motion_lab_core::configuration::Coordinates;
 use motion_lab_core::geometry::{Footprint, Part, Point2, Pose2};
 use motion_lab_core::num::{cos, wrap};
@@ -29,8 +29,8 @@ pub struct ParkingExercise {
     pub tick: Option<u64>,
     /// Whether the car is put back to the start by the tick that comes next, which does not count.
     pub is_put: bool,
-    /// The tick by which the car was last put somewhere since, which no wheel does: the goal is not reached so.
-    pub put: Option<u64>,
+    /// Whether the car was put somewhere since, which no wheel does: the goal is not reached so.
+    pub was_lifted: bool,
     /// What it took, once the goal has been reached.
     pub score: Option<GoalScore>,
 }
@@ -87,26 +87,21 @@ impl ParkingExercise {
             reversals,
             tick: None,
             is_put: false,
-            put: None,
+            was_lifted: false,
             score: None,
         })
     }
 
     /// The same exercise from its start, for a car that is put back there.
     pub fn again(&self) -> Self {
-        ParkingExercise { tick: None, is_put: true, put: None, score: None, ..self.clone() }
+        ParkingExercise { tick: None, is_put: true, was_lifted: false, score: None, ..self.clone() }
     }
 
     /// Keeps the score: it counts from the first tick after the goal was set, and is taken when the goal is reached.
     pub fn watch(&mut self, car: &CockpitRobot, tick: u64, history: &History) {
         let from = *self.tick.get_or_insert(tick + u64::from(self.is_put));
-        if car.put > from {
-            self.put = Some(car.put);
-        } else if self.put.is_some_and(|put| put > tick || tick <= put + TRAIL) {
-            // gone back before it, or undone: it would be in the trail
-            self.put = None;
-        }
-        if self.put.is_some() {
+        self.was_lifted = car.put_since_goal;
+        if self.was_lifted {
             self.score = None;
         } else if tick <= from {
             // before its first tick nothing is reached, also where the run was taken back
@@ -155,7 +150,7 @@ impl ParkingExercise {
 
     /// The state of the exercise in words. `reversals` is the car's count now.
     pub fn words(&self, car: &Footprint, reversals: u32) -> String {
-        if self.put.is_some() {
+        if self.was_lifted {
             return "goal: the car was put, and not driven, since; \"again\" begins anew".into();
         }
         if let Some(GoalScore { seconds, reversals, metres }) = self.score {

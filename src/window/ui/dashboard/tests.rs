@@ -47,13 +47,13 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         reversals: 0,
         no_room: None,
         put: 0,
+        put_since_goal: false,
     }
 }
 
 fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit {
     let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
-    let model = World::empty(world, bounds);
-    let (world, atlas) = (Arc::new(Picture::new(world, bounds)), Arc::new(Atlas::new(model)));
+    let (world, atlas) = (Arc::new(Picture::new(world, bounds)), Arc::new(Atlas::new(World::empty(world, bounds))));
     Cockpit { world, atlas, robots: vec![robot], crowd: None, doors: Vec::new(), waiting: false }
 }
 

@@ -89,6 +89,8 @@ pub struct CockpitRobot {
     pub no_room: Option<String>,
     /// The tick by which an input put it somewhere last, as far back as its trail goes; 0 without one.
     pub put: u64,
+    /// Whether an input has put it somewhere since its exercise began.
+    pub put_since_goal: bool,
     /// The number of its changes between forward and backward.
     pub reversals: u32,
     /// Whether a trailer is on; `None` for a robot that can't have one.
