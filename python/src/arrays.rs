@@ -17,10 +17,10 @@ use crate::errors::configuration_error;
 /// Most numbers in a row.
 pub const MAX_WIDTH: usize = 4;
 
-/// So many numbers are checked before another thread misses the interpreter's lock.
+/// Most numbers that are checked with the interpreter's lock held: another thread does not miss it meanwhile.
 const QUICK: usize = 512;
 
-/// So many rows are checked before Ctrl+C is heard; no part of a call goes on beyond a multiple of them.
+/// Most rows that are checked before Ctrl+C is heard. No part of a call crosses a multiple of this number.
 pub const BLOCK: usize = 1 << 18;
 
 /// What the rows of an argument are: `a Disc's configuration`, of `x`, `y`.

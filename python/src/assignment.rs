@@ -1,7 +1,7 @@
 //! `Assignment`, what a course asks for, and the grade of what is handed in.
 
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -12,13 +12,11 @@ use motion_lab_sim::course::{Assignment, AssignmentFile, Attempt, Criterion, Gra
 
 use crate::errors::Error;
 use crate::file::{MAX_TEXT, text_of};
+use crate::interrupt::PIECE;
 use crate::natural::counted;
 use crate::run::{PyRun, read};
 use crate::script::script;
 use crate::world::PyWorld;
-
-/// How long grading goes on before somebody may stop it.
-const PIECE: Duration = Duration::from_millis(20);
 
 /// An assignment: the goal of a robot in a world, limits, and the seeds at which a submission is run.
 ///

@@ -23,7 +23,7 @@ pub fn os_error(error: &io::Error, path: &Path) -> PyErr {
     }
 }
 
-/// The text of a file, which is `what` and has at most so many bytes; else why it is none, in words.
+/// The text of a file of at most `most` bytes; else, in words, why it is not `what`.
 ///
 /// # Errors
 /// `OSError` for a file that cannot be read.

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use crate::pool;
 
 /// How long work goes on before somebody may stop it.
-const PIECE: Duration = Duration::from_millis(20);
+pub const PIECE: Duration = Duration::from_millis(20);
 /// From this number of robots on the library divides a tick among threads.
 const MANY: usize = 256;
 
