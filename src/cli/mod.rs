@@ -14,7 +14,7 @@ use support::{gate, interrupt};
 
 use commands::{
     bare, capture, completions, describe, diff, export, grade, info, link, plan, plot, query, record, replay, script,
-    stats, sweep, verify, world,
+    stats, sweep, verify, why, world,
 };
 
 /// Examples and the exit codes, as `--help` and `docs/cli.md` list them.
@@ -64,6 +64,7 @@ enum CliCommand {
     Diff(diff::Diff),
     Export(export::Export),
     Stats(stats::StatsArgs),
+    Why(Box<why::WhyArgs>),
     Plot(plot::PlotArgs),
     Info(info::Info),
     Link(link::LinkArgs),
@@ -125,6 +126,7 @@ impl Cli {
             Some(CliCommand::Info(info)) => info.run(data),
             Some(CliCommand::Link(link)) => link.run(data),
             Some(CliCommand::Stats(stats)) => stats.run(data),
+            Some(CliCommand::Why(why)) => why.run(data),
             Some(CliCommand::Plan(plan)) => plan.run(data),
             Some(CliCommand::Plot(plot)) => plot.run(data),
             Some(CliCommand::Query(query)) => query.run(data),

@@ -35,6 +35,8 @@ pub mod export;
 
 pub mod plans;
 
+pub mod avoid;
+
 #[doc(hidden)]
 pub mod manifest;
 

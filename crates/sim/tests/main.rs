@@ -1,6 +1,7 @@
 //! The tests of the simulator as a whole: one binary, a folder per subject.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, missing_docs)]
 
+mod avoid;
 mod obstacles;
 mod pins;
 mod runs;

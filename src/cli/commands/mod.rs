@@ -22,4 +22,5 @@ pub(crate) mod sweep;
 #[cfg(feature = "headless")]
 pub(crate) mod tour;
 pub(crate) mod verify;
+pub(crate) mod why;
 pub(crate) mod world;

@@ -29,7 +29,8 @@ pub fn unknown_kind() -> String {
     )
 }
 
-fn refused(error: &RunError) -> Failure {
+/// The failure of a run that cannot start.
+pub fn refused(error: &RunError) -> Failure {
     Failure::input(error, advice(error))
 }
 

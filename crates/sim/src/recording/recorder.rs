@@ -6,7 +6,7 @@ use bevy::app::App;
 use bevy::ecs::world::World;
 
 use super::frame_list::{FrameList, FramesError};
-use crate::run::{Frame, Log, Recipe, RobotInput, RunInput, Script, WorldChange};
+use crate::run::{Event, Frame, Log, Recipe, RobotInput, RunInput, Script, WorldChange};
 use crate::simulation::{
     CommandError, Keyframes, Later, LatestFrame, PendingInput, Refusals, RestoreError, RobotCommand, RobotView, Roster,
     RunConfig, SensorView, SimulationPlugin, SpawnError, StandingWorld, Transport, WorldCommand, give_change,
@@ -141,6 +141,13 @@ impl Recorder {
     /// counted and changes nothing.
     pub fn input(&mut self, robot: &str, input: RobotInput) -> Result<(), CommandError> {
         give_input(&mut self.world, RobotCommand { robot: robot.to_owned(), input }, Later::Kept)
+    }
+
+    /// Gives a robot an input at the next tick in place of all that the script has for it from there on. What others
+    /// get stays. For branches of a run, which are no part of what it has recorded.
+    pub(crate) fn input_instead(&mut self, robot: &str, input: RobotInput) {
+        let tick = self.frame().tick + 1;
+        self.world.resource_mut::<PendingInput>().instead(Event { tick, robot: robot.to_owned(), input });
     }
 
     /// Changes a world before the next tick, as [`input`](Self::input).

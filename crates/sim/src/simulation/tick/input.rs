@@ -87,6 +87,12 @@ impl PendingInput {
         self.script.version = Script::version_of(&self.script.changes);
     }
 
+    /// Puts an event in place of all that its robot gets from its tick on. What others get stays.
+    pub(crate) fn instead(&mut self, event: Event) {
+        self.script.events.retain(|e| e.robot != event.robot || e.tick < event.tick);
+        self.add(event);
+    }
+
     /// Adds an event after those of its tick. What comes later stays.
     pub(crate) fn add(&mut self, event: Event) {
         self.insert(event.tick, &event.robot, event.input);

@@ -1,0 +1,118 @@
+//! `Approach`, the run up to a contact and to its end.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use bevy::app::App;
+
+use super::episode::without_sensors;
+use super::{AvoidError, ContactEpisode, ContactPartner};
+use crate::recording::{Recorder, RunError};
+use crate::run::{Frame, Recipe, Script};
+use crate::tour::TourConfig;
+
+/// What adds further kinds of robots to an app, as a [`RobotPlugin`](crate::simulation::RobotPlugin).
+pub type AddKinds = Arc<dyn Fn(&mut App) + Send + Sync>;
+
+/// The run up to a contact and to its end, tick by tick.
+pub(super) struct Approach {
+    /// What is run: the robot's world alone, without sensors.
+    pub(super) recipe: Recipe,
+    pub(super) add: Option<AddKinds>,
+    /// The robot's number among those of the run.
+    pub(super) id: usize,
+    pub(super) run: Recorder,
+    /// The frames before the contact that are kept, and its first.
+    pub(super) frames: VecDeque<Frame>,
+    /// The first tick that is kept.
+    kept_from: u64,
+    robot: String,
+    first: u64,
+    episode: Option<ContactEpisode>,
+}
+
+impl Approach {
+    /// The run of a recipe up to a contact of a robot that begins at `first`; the last `back` ticks before it are kept.
+    pub(super) fn new(
+        recipe: &Recipe,
+        (robot, first): (&str, u64),
+        back: u64,
+        add: Option<AddKinds>,
+    ) -> Result<Self, AvoidError> {
+        let none = || AvoidError::NoContact { robot: robot.to_owned(), tick: first };
+        let lives_in = recipe.config.worlds.iter().find(|world| world.robots.iter().any(|r| r.name == robot));
+        let world = lives_in.ok_or_else(none)?.name.clone();
+        // the kinds of a program of one's own may know of other worlds
+        let recipe = without_sensors(recipe);
+        let recipe = if add.is_some() { recipe } else { alone(recipe, &world) };
+        let id = recipe.config.robot_names().position(|name| name == robot).ok_or_else(none)?;
+        if first == 0 || first > recipe.config.ticks {
+            return Err(none());
+        }
+        let run = recorder(&recipe, add.as_ref())?;
+        // a branch from a tick begins after the frame before it; a robot's speed takes two frames
+        let kept_from = first.saturating_sub(std::cmp::max(back + 1, 2));
+        let frames = if kept_from == 0 { VecDeque::from([run.frame().clone()]) } else { VecDeque::new() };
+        Ok(Approach { recipe, add, id, run, frames, kept_from, robot: robot.to_owned(), first, episode: None })
+    }
+
+    /// Runs the next tick. Returns the contact when it has ended, or the run.
+    pub(super) fn step(&mut self) -> Result<Option<ContactEpisode>, AvoidError> {
+        let frame = self.run.step();
+        let (tick, touches) = (frame.tick, frame.robots[self.id].in_contact);
+        if (self.kept_from..=self.first).contains(&tick) {
+            self.frames.push_back(frame.clone());
+        }
+        if tick < self.first {
+            return Ok(None);
+        }
+        if tick == self.first {
+            self.episode = Some(self.begun()?);
+        }
+        let is_last = tick >= self.recipe.config.ticks;
+        if touches && !is_last {
+            return Ok(None);
+        }
+        Ok(self.episode.take().map(|episode| ContactEpisode { ended: (!touches).then_some(tick), ..episode }))
+    }
+
+    /// The contact that begins in the tick at which the run stands.
+    fn begun(&self) -> Result<ContactEpisode, AvoidError> {
+        let before = self.frames.iter().rev().nth(1);
+        let touches = |frame: &Frame| frame.robots[self.id].in_contact;
+        if !touches(self.run.frame()) || before.is_none_or(touches) {
+            return Err(AvoidError::NoContact { robot: self.robot.clone(), tick: self.first });
+        }
+        let all = self.run.view();
+        let robot = &all[self.id];
+        Ok(ContactEpisode {
+            robot: self.robot.clone(),
+            world: self.recipe.config.worlds[robot.world as usize].name.clone(),
+            number: robot.contacts,
+            first: self.first,
+            ended: None,
+            with: ContactPartner::of(&self.run, robot, &all),
+        })
+    }
+}
+
+/// A recorder with further kinds of robots.
+pub(super) fn recorder(recipe: &Recipe, add: Option<&AddKinds>) -> Result<Recorder, RunError> {
+    let added = |app: &mut App| {
+        if let Some(add) = add {
+            add(app);
+        }
+    };
+    Recorder::of_with_robots(recipe, added)
+}
+
+/// The run of one world of it. What happens in a world is the same whichever others there are.
+fn alone(recipe: Recipe, world: &str) -> Recipe {
+    let mut config = TourConfig::clone(&recipe.config);
+    config.worlds.retain(|other| other.name == world);
+    let Script { mut events, mut changes, .. } = recipe.script;
+    let robots: Vec<&str> = config.robot_names().collect();
+    events.retain(|event| robots.contains(&event.robot.as_str()));
+    changes.retain(|change| change.world == world);
+    Recipe { script: Script::new(events, changes), config: Arc::new(config), ..recipe }
+}

@@ -1,0 +1,70 @@
+//! What is known of a contact, in words.
+
+use motion_lab::avoid::{Evasion, EvasionMeans, Explanation, LastChance, NoEvasion};
+use motion_lab::run::seconds;
+
+/// The lines of a contact.
+pub fn lines(why: &Explanation) -> Vec<String> {
+    let episode = &why.episode;
+    let (first, time) = (episode.first, seconds(episode.first));
+    let head = format!(
+        "{}, contact {}: meets {} at tick {first} ({time:.2} s) in {}",
+        episode.robot, episode.number, episode.with, episode.world
+    );
+    vec![head, format!("  by stopping: {}", stopping(why)), format!("  by going on: {}", going_on(why))]
+}
+
+fn stopping(why: &Explanation) -> String {
+    match &why.stopping {
+        LastChance::At(evasion) if evasion.tick == why.episode.first => {
+            format!("in tick {} itself; it stops within a tick", evasion.tick)
+        }
+        LastChance::At(evasion) => format!("until {}", at(why, evasion)),
+        LastChance::None(none) => no_way(none),
+    }
+}
+
+fn going_on(why: &Explanation) -> String {
+    match &why.going_on {
+        LastChance::At(evasion) => {
+            let tried = match evasion.means {
+                EvasionMeans::Channels(_) => format!("; later none, of {} tried", branches(evasion.extent.branches)),
+                _ => String::new(),
+            };
+            format!("until {}, {}{tried}", at(why, evasion), means(evasion))
+        }
+        LastChance::None(none) => no_way(none),
+    }
+}
+
+/// The last chance, and how long before the contact it is.
+fn at(why: &Explanation, evasion: &Evasion) -> String {
+    let (tick, before) = (evasion.tick, seconds(why.episode.first - evasion.tick));
+    format!("tick {tick} ({before:.2} s before)")
+}
+
+/// By what the robot avoids the contact.
+fn means(evasion: &Evasion) -> String {
+    match &evasion.means {
+        EvasionMeans::Channels(channels) => {
+            let each = |(tick, [a, b]): &(u64, [i16; 2])| format!("Drive({a}, {b}) from tick {tick}");
+            format!("by {}", channels.iter().map(each).collect::<Vec<_>>().join(", "))
+        }
+        EvasionMeans::Standing => "where it is".into(),
+        EvasionMeans::Path { length, arrives } => format!("by a path of {length:.3} rad that ends at tick {arrives}"),
+    }
+}
+
+fn branches(count: u64) -> String {
+    if count == 1 { "1 branch".into() } else { format!("{count} branches") }
+}
+
+fn no_way(none: &NoEvasion) -> String {
+    match none {
+        NoEvasion::TooLate(extent) => {
+            let tried = branches(extent.branches);
+            format!("too late from tick {} on, of {tried} tried; --back looks farther back", extent.earliest)
+        }
+        other => other.to_string(),
+    }
+}
