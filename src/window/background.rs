@@ -7,7 +7,9 @@ use bevy::platform::time::Instant;
 use bevy::prelude::*;
 
 use super::error::SessionError;
+use super::why::explained;
 use crate::window::ui::{Interface, Notice, Working};
+use motion_lab_sim::avoid::{Explaining, Explanation};
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::recording::Recorder;
 use motion_lab_sim::run::{Comparison, Difference, Log, LogWriter};
@@ -43,6 +45,15 @@ enum Job {
     Check(Check),
     /// Recording a run again to save it.
     Save(Box<Save>),
+    /// Explaining a contact.
+    Explain(Box<Explain>),
+}
+
+/// The explanation of a contact of a robot, under way and then done.
+struct Explain {
+    robot: String,
+    under_way: Explaining,
+    explanation: Option<Explanation>,
 }
 
 /// A comparison of the run under way with a recorded one.
@@ -141,6 +152,10 @@ impl Job {
                 }
                 Ok(save.recorder.frame().tick < save.ticks)
             }
+            Job::Explain(explain) => {
+                explain.explanation = explain.under_way.step()?;
+                Ok(explain.explanation.is_none())
+            }
         }
     }
 
@@ -155,6 +170,9 @@ impl Job {
                 format!("{}: comparing tick {tick} of {}", check.name, check.comparison.log().ticks())
             }
             Job::Save(save) => format!("saving: tick {} of {}", save.recorder.frame().tick, save.ticks),
+            Job::Explain(explain) => {
+                format!("looking for a way out of {}: {} ticks", explain.robot, explain.under_way.ticks())
+            }
         }
     }
 
@@ -172,6 +190,13 @@ impl Job {
             Job::Check(check) => Some(check.ended(world)?),
             Job::Save(_) if was_stopped => plain("not saved: stopped".into()),
             Job::Save(save) => Some(save.ended()?),
+            Job::Explain(explain) => match explain.explanation {
+                Some(explanation) if !was_stopped => {
+                    explained(world, &explanation);
+                    None
+                }
+                _ => plain(format!("stopped looking for a way out of {}", explain.robot)),
+            },
         })
     }
 }
@@ -238,6 +263,13 @@ pub fn check(world: &mut World, check: Check) -> Result<Option<Notice>, SessionE
 pub fn save(world: &mut World, save: Save) -> Result<Option<Notice>, SessionError> {
     let (ticks, playback) = (save.ticks, world.resource::<Transport>().playback);
     run_or_defer(world, Job::Save(Box::new(save)), ticks, playback)
+}
+
+/// Explains a contact of a robot, in the frames to come. The run then plays or stands as before.
+pub fn explain(world: &mut World, under_way: Explaining, robot: &str) {
+    let playback = world.resource::<Transport>().playback;
+    let explain = Explain { robot: robot.to_owned(), under_way, explanation: None };
+    begin(world, Job::Explain(Box::new(explain)), playback);
 }
 
 /// Does a job of this number of ticks at once, or defers it to the frames to come if that takes long.

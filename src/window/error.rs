@@ -1,6 +1,7 @@
 //! `SessionError`, why a run could not be started, saved, opened or pictured.
 
 use motion_lab_sim::atlas::TeleportRefusal;
+use motion_lab_sim::avoid::AvoidError;
 use motion_lab_sim::capture::CaptureError;
 use motion_lab_sim::recording::RunError;
 use motion_lab_sim::run::LogError;
@@ -25,6 +26,9 @@ pub enum SessionError {
     /// The picture cannot be made.
     #[error(transparent)]
     Capture(#[from] CaptureError),
+    /// A contact cannot be explained.
+    #[error(transparent)]
+    Avoid(#[from] AvoidError),
     /// A file cannot be read or written.
     #[error(transparent)]
     File(#[from] std::io::Error),

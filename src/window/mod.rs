@@ -19,6 +19,7 @@ mod session;
 #[cfg(feature = "window")]
 mod tests;
 pub(crate) mod ui;
+mod why;
 
 use bevy::core_pipeline::Core2d;
 use bevy::ecs::schedule::SingleThreadedExecutor;
@@ -45,6 +46,7 @@ pub(crate) mod for_page {
     pub(crate) use super::run_files::{open_log, open_path_text, open_world_text, path_text, save, shown_run};
     pub(crate) use super::session::{ShownDashboard, new_run};
     pub(crate) use super::ui::Interface;
+    pub(crate) use super::why::{explain, play_way_out};
     pub(crate) use super::windowed_app;
 }
 

@@ -14,6 +14,7 @@ use super::error::SessionError;
 use super::lab_systems::LabSystems;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
+use super::why;
 use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, blend};
 use motion_lab_core::configuration::{Configuration as _, HitchCfg, RobotKind, Sizes};
 use motion_lab_core::geometry::{Footprint, Pose2, Segment};
@@ -55,6 +56,7 @@ impl Plugin for SessionPlugin {
                 looping: false,
                 behind: None,
                 next_contact: None,
+                has_contact: false,
                 can_undo: false,
                 can_redo: false,
             }))
@@ -136,6 +138,7 @@ fn note_refusals(
 pub fn gather(world: &mut World) {
     settle(world);
     draw_worlds(world);
+    why::forget_if_other(world);
     let config = Arc::clone(world.resource::<RunConfig>().config());
     world.resource_mut::<Interface>().0.plan.see_run(&config);
     let transport = world.resource::<Transport>();
@@ -182,6 +185,7 @@ pub fn gather(world: &mut World) {
         looping,
         behind: world.resource::<Pace>().words(speed).filter(|_| playing),
         next_contact: history.next_contact(tick),
+        has_contact: why::contact_at(history, tick).is_some(),
         can_undo: undoes(world),
         can_redo: undo.can_redo(),
     };
@@ -301,6 +305,8 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PlayPath) => play_path(world),
+            Command::Session(SessionCommand::Why) => why::explain(world),
+            Command::Session(SessionCommand::PlayWayOut) => why::play_way_out(world),
             #[cfg(feature = "window")]
             Command::Session(command) => super::desktop::carry_out(world, command),
             #[cfg(not(feature = "window"))]

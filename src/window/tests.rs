@@ -13,6 +13,7 @@ mod plan;
 mod safe;
 mod screen;
 mod time;
+mod why;
 mod widgets;
 mod work;
 

@@ -16,7 +16,7 @@ use super::report::Sent;
 use super::run_link::link_of;
 use crate::web::link::MAX_LINK_TICK;
 use crate::window::for_page::{
-    Interface, open_log, open_path_text, open_world_text, seek_in_background, stop_background,
+    Interface, explain, open_log, open_path_text, open_world_text, play_way_out, seek_in_background, stop_background,
 };
 use crate::window::ui::{Notice, SessionCommand, UiState};
 use motion_lab_core::configuration::Configuration as _;
@@ -161,6 +161,14 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
         Message::StepBack => transport(world, TransportCommand::StepBack),
         Message::Seek { tick } if tick > MAX_LINK_TICK => Err(PageError::Tick(tick)),
         Message::Seek { tick } => transport(world, TransportCommand::Seek(tick)),
+        Message::Why => {
+            explain(world);
+            Ok(None)
+        }
+        Message::WayOut => {
+            play_way_out(world);
+            Ok(None)
+        }
         Message::Reset => transport(world, TransportCommand::Reset),
         Message::Reroll => transport(world, TransportCommand::ReRoll),
         Message::Seed { seed } => {

@@ -66,6 +66,10 @@ pub enum Message {
         /// The tick.
         tick: u64,
     },
+    /// Say until when the contact at the present tick could have been avoided; the state has it when it is known.
+    Why,
+    /// Play the way out of the contact that was explained.
+    WayOut,
     /// Start a run with the same seed.
     Reset,
     /// Start a run with another seed.

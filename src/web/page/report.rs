@@ -10,7 +10,7 @@ use super::listener::tell;
 use crate::web::mirror::mirror;
 use crate::web::runs::RunParts;
 use crate::window::for_page::{Interface, ShownDashboard};
-use crate::window::ui::{AtlasState, LessonState, PlanState, Settings};
+use crate::window::ui::{AtlasState, LessonState, PlanState, Settings, ShownChance};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, Theme, readout};
 use motion_lab_core::robots::AnyRobot;
@@ -162,8 +162,18 @@ fn state(world: &World) -> Value {
             "coordinates": &query.q().coordinates()[..],
             "intersects": query.intersects(), "distance": query.distance(),
         })),
+        "why": ui.chance.as_ref().map(why),
         "plan": (ui.widget == Widget::Plan).then(|| plan(&ui.plan)),
         "atlas": (ui.widget == Widget::Atlas).then(|| atlas(&ui.atlas)),
+    })
+}
+
+/// What is known of the contact that was asked about.
+fn why(chance: &ShownChance) -> Value {
+    let name = chance.config.robot_names().nth(chance.robot as usize);
+    json!({
+        "robot": name, "contact": chance.contact, "text": chance.text,
+        "last_chance": chance.way_out.as_ref().map(|way_out| way_out.tick),
     })
 }
 

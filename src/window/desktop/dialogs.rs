@@ -129,6 +129,8 @@ pub fn ask(
                 dialogs.picture = Some((dialog, *order));
             }
             SessionCommand::PlayPath
+            | SessionCommand::Why
+            | SessionCommand::PlayWayOut
             | SessionCommand::RunWorld
             | SessionCommand::ThreeRobots
             | SessionCommand::RunFromHere

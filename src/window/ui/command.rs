@@ -51,6 +51,10 @@ pub(crate) enum SessionCommand {
     ThreeRobots,
     /// A new run in which a robot plays the plan's path.
     PlayPath,
+    /// Explain the contact at the present tick.
+    Why,
+    /// Play the way out of the contact that was explained.
+    PlayWayOut,
     /// Save the plan's path: ask for a file first.
     SavePath,
     /// Open a path in the plan: ask for a file first.

@@ -11,8 +11,8 @@ use super::paint::icon::Icon;
 use super::paint::style::ScreenTheme;
 use super::time::transport_bar;
 use super::{
-    Command, Dashboard, FrameColours, Grasp, UiState, anatomy, atlas, capture_form, cspace, help, lesson, menu, plan,
-    tasks_done,
+    Command, Dashboard, FrameColours, Grasp, SessionCommand, UiState, anatomy, atlas, capture_form, cspace, help,
+    lesson, menu, plan, tasks_done,
 };
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::{History, TransportCommand};
@@ -118,6 +118,9 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     let now = ui.input(|i| i.time);
     tasks_done::tick_off(model, state, commands, now);
     menu::notice(ui.ctx(), stage, &look, state);
+    if state.chance.as_mut().is_some_and(|chance| std::mem::take(&mut chance.is_asked)) {
+        commands.push(Command::Session(SessionCommand::PlayWayOut));
+    }
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
     super::closing::closing(ui.ctx(), &look, state, commands);
@@ -133,7 +136,7 @@ fn carry_out(action: Action, model: &Dashboard, state: &mut UiState, commands: &
     let is_dashboard = state.widget == Widget::Dashboard;
     match action {
         Action::Time(action) => match state.widget {
-            Widget::Dashboard => transport_bar::act(action, model, commands),
+            Widget::Dashboard => transport_bar::act(action, model, state.chance.as_ref(), commands),
             Widget::Plan => plan::controls::act(action, &mut state.plan),
             // nothing there moves through time
             Widget::Anatomy | Widget::Cspace | Widget::Atlas => {}

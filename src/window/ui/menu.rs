@@ -229,6 +229,19 @@ fn is_read(ui: &Ui, notice: &Notice) -> bool {
     left <= 0.0
 }
 
+/// Says what is known of the contact that was asked about, with links to play the way out and to put it away.
+fn chance(ui: &mut Ui, state: &mut UiState) {
+    let Some(shown) = &mut state.chance else { return };
+    ui.add(Label::new(&shown.text).wrap());
+    let put_away = frame::rows_of_words(ui, |ui| {
+        shown.is_asked |= shown.way_out.is_some() && ui.link("Play the way out").clicked();
+        ui.link("Put away").clicked()
+    });
+    if put_away {
+        state.chance = None;
+    }
+}
+
 /// Shows the work in the background and the last notice of the widget in front, with links to stop the one and dismiss
 /// the other; over the run, also the offer of the run before. They lie over the foot of the `stage`, so that nothing
 /// moves when they come and go.
@@ -238,7 +251,8 @@ pub fn notice(ctx: &Context, stage: Rect, look: &FrameColours, state: &mut UiSta
         // the same words said anew stand as long again
         ctx.data_mut(|data| data.remove_temp::<(String, f64)>(since()));
     }
-    if state.working.is_none() && state.notice().is_none() && !offers {
+    let has_chance = state.widget == Widget::Dashboard && state.chance.is_some();
+    if state.working.is_none() && state.notice().is_none() && !offers && !has_chance {
         return;
     }
     let width = (stage.width() - 24.0).min(MAX_NOTICE);
@@ -260,6 +274,9 @@ pub fn notice(ctx: &Context, stage: Rect, look: &FrameColours, state: &mut UiSta
                     offer.answer = Some(false);
                 }
             });
+        }
+        if has_chance {
+            chance(ui, state);
         }
         let Some(notice) = state.notice() else { return false };
         let is_read = !notice.is_error && is_read(ui, notice);

@@ -113,6 +113,8 @@ pub struct UiState {
     pub offer: Option<Offer>,
     /// The files opened or saved last.
     pub recent: super::Recent,
+    /// The last chance to avoid the contact that was asked about, while the run is the same.
+    pub chance: Option<super::ShownChance>,
     /// The work in the background, if any.
     pub working: Option<Working>,
     /// The lesson under way.

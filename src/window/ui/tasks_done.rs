@@ -152,6 +152,7 @@ mod tests {
             looping,
             behind,
             next_contact,
+            has_contact: false,
             can_undo,
             can_redo,
         };

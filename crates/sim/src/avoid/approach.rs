@@ -42,9 +42,7 @@ impl Approach {
         let none = || AvoidError::NoContact { robot: robot.to_owned(), tick: first };
         let lives_in = recipe.config.worlds.iter().find(|world| world.robots.iter().any(|r| r.name == robot));
         let world = lives_in.ok_or_else(none)?.name.clone();
-        // the kinds of a program of one's own may know of other worlds
-        let recipe = without_sensors(recipe);
-        let recipe = if add.is_some() { recipe } else { alone(recipe, &world) };
+        let recipe = alone(without_sensors(recipe), &world);
         let id = recipe.config.robot_names().position(|name| name == robot).ok_or_else(none)?;
         if first == 0 || first > recipe.config.ticks {
             return Err(none());

@@ -79,7 +79,7 @@ pub use truth::foreign_change::ForeignChange;
 pub use truth::robot_refusal::RobotRefusal;
 pub use truth::run_config::RunConfig;
 pub use truth::settle;
-pub use undo::{Undo, checkpoint, undoes};
+pub use undo::{Undo, checkpoint, take_script, undoes};
 
 /// Bevy's app, for a program that adds robots of its own and does not otherwise use Bevy.
 pub use bevy::app::App;

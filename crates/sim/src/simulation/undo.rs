@@ -71,6 +71,21 @@ pub(super) fn checkpoint_before_new_run(world: &mut World) {
     push(world, true);
 }
 
+/// Takes another script for the run, and goes to a tick, up to which the run goes then. An undo brings back the run as
+/// it was. The run is paused.
+///
+/// # Errors
+/// [`CommandError::Script`] of a script that no run of this configuration could have; it changes nothing.
+pub fn take_script(world: &mut World, script: Script, tick: u64) -> Result<(), CommandError> {
+    let Some(now) = recipe(world) else { return Ok(()) };
+    let names: Vec<&str> = now.config.robot_names().collect();
+    script.check()?;
+    script.check_robots(&names)?;
+    script.check_worlds(&now.config.worlds)?;
+    checkpoint(world);
+    apply(world, Checkpoint { recipe: Recipe { script, ..now.clone() }, tick, frontier: tick, ends: false })
+}
+
 fn push(world: &mut World, ends: bool) {
     let Some(now) = Checkpoint::of(world).map(|now| Checkpoint { ends, ..now }) else { return };
     let changed_nothing = world.resource::<Undo>().past.last().is_some_and(|last| last.is_now(world));
@@ -161,7 +176,7 @@ fn shared_ticks(a: &Script, b: &Script) -> u64 {
 mod tests {
     use super::super::command::obey;
     use super::*;
-    use crate::run::RobotInput;
+    use crate::run::{Event, RobotInput};
     use crate::simulation::{
         HistoryPlugin, LatestFrame, RobotCommand, RunCommand, SimulationPlugin, TransportCommand, snapshot, start_run,
         step,
@@ -227,6 +242,30 @@ mod tests {
         assert_eq!(state(&mut app), driven);
         let trail = app.world().resource::<History>().at(200, 0).unwrap().clone();
         assert!(trail.manual, "the history went along");
+    }
+
+    #[test]
+    fn another_script_is_a_branch_that_an_undo_takes_back() {
+        let mut app = app();
+        drive(&mut app, 128);
+        advance(&mut app, 60);
+        let before = state(&mut app);
+        let event = |tick, v| Event { tick, robot: "Rusty".into(), input: RobotInput::Drive(v, 0) };
+        let script = Script::new(vec![before.0.events[0].clone(), event(31, 0), event(35, 64)], vec![]);
+        take_script(app.world_mut(), script.clone(), 30).unwrap();
+        let (taken, frame, frontier) = state(&mut app);
+        assert_eq!((taken, frame.tick, frontier), (script.clone(), 30, 30));
+        advance(&mut app, 3);
+        let there = snapshot(app.world()).robots[0].configuration[0];
+        advance(&mut app, 1);
+        assert_eq!(snapshot(app.world()).robots[0].configuration[0], there, "it stands from tick 31 to 34");
+        advance(&mut app, 4);
+        assert_ne!(snapshot(app.world()).robots[0].configuration[0], there, "what comes later in the script comes");
+        command(&mut app, TransportCommand::Undo);
+        assert_eq!(state(&mut app), before);
+        let unknown = Script::new(vec![Event { robot: "Nobody".into(), ..event(31, 0) }], vec![]);
+        assert!(take_script(app.world_mut(), unknown, 30).is_err());
+        assert_eq!(state(&mut app), before);
     }
 
     #[test]

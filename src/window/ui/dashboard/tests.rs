@@ -75,6 +75,7 @@ fn model() -> Dashboard {
         looping: false,
         behind: None,
         next_contact: None,
+        has_contact: false,
         can_undo: true,
         can_redo: false,
     }

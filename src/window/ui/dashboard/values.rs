@@ -135,6 +135,8 @@ pub struct Dashboard {
     pub behind: Option<String>,
     /// The tick of the next contact known.
     pub next_contact: Option<u64>,
+    /// Whether a contact is known that can be asked about.
+    pub has_contact: bool,
     /// Whether something can be undone.
     pub can_undo: bool,
     /// Whether something can be redone.

@@ -31,6 +31,8 @@ pub enum TimeAction {
     End,
     /// To the next contact known.
     NextContact,
+    /// Why the contact at the present tick came about; once that is known, the way out.
+    Why,
     /// Play again and again, or not.
     Loop,
     Slower,

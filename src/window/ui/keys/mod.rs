@@ -51,13 +51,19 @@ const fn shifted(action: Action, key: Key, words: &'static str) -> Binding {
 }
 
 /// All keys.
-pub const BINDINGS: [Binding; 57] = [
+pub const BINDINGS: [Binding; 58] = [
     plain(Action::Time(TimeAction::PlayPause), Key::Space, Scope::Always, "play or pause"),
     plain(Action::Time(TimeAction::StepBack), Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
     plain(Action::Time(TimeAction::Step), Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
     plain(Action::Time(TimeAction::Start), Key::Home, Scope::Always, "to the start"),
     plain(Action::Time(TimeAction::End), Key::End, Scope::Always, "as far as the run has come"),
     plain(Action::Time(TimeAction::NextContact), Key::N, Scope::Always, "to the next contact"),
+    plain(
+        Action::Time(TimeAction::Why),
+        Key::W,
+        Scope::Always,
+        "why the robot touches: its last chance, then the way out",
+    ),
     plain(Action::Time(TimeAction::Loop), Key::L, Scope::Always, "loop on or off"),
     plain(Action::Time(TimeAction::Slower), Key::Comma, Scope::Always, "slower"),
     plain(Action::Time(TimeAction::Faster), Key::Period, Scope::Always, "faster"),

@@ -28,7 +28,12 @@ pub fn act(action: TimeAction, plan: &mut PlanState) {
         TimeAction::Slower => plan.pace = plan.pace.saturating_sub(1),
         TimeAction::Faster => plan.pace = (plan.pace + 1).min(PACES.len() - 1),
         // a planner goes on only, and has no contacts
-        TimeAction::StepBack | TimeAction::End | TimeAction::NextContact | TimeAction::Loop | TimeAction::Continue => {}
+        TimeAction::StepBack
+        | TimeAction::End
+        | TimeAction::NextContact
+        | TimeAction::Why
+        | TimeAction::Loop
+        | TimeAction::Continue => {}
     }
 }
 

@@ -8,7 +8,7 @@ use bevy_egui::egui::{
 };
 
 use super::span::{ShownSpan, TickSpan};
-use crate::window::ui::{Command, Dashboard, FrameColours};
+use crate::window::ui::{Command, Dashboard, FrameColours, SessionCommand, ShownChance};
 use motion_lab_core::num::exp;
 use motion_lab_core::picture::Role;
 use motion_lab_sim::run::seconds;
@@ -58,6 +58,13 @@ impl Scale {
         ((x - self.lanes.left()) / self.lanes.width()).clamp(0.0, 1.0)
     }
 
+    /// The rectangle of a lane, of this many.
+    fn lane(&self, lane: usize, lanes: usize) -> Rect {
+        let height = self.lanes.height() / lanes.max(1) as f32;
+        let top = self.lanes.top() + lane as f32 * height;
+        Rect::from_x_y_ranges(self.lanes.x_range(), top..=top + height)
+    }
+
     fn tick(&self, x: f32) -> u64 {
         let TickSpan { from, to } = self.span;
         from + (f64::from(self.share(x)) * to.saturating_sub(from) as f64).round() as u64
@@ -98,13 +105,15 @@ pub struct TimeLine<'a> {
     pub look: &'a FrameColours,
     /// Whether the wheel zooms.
     pub wheel: bool,
+    /// The last chance to avoid a contact, if one was asked about.
+    pub chance: Option<&'a ShownChance>,
 }
 
 impl TimeLine<'_> {
     /// Shows the line over the whole width, of the ticks `shown`, or of all. Clicking and dragging seek; so do the
     /// arrow keys while it has the focus.
     pub fn show(&self, ui: &mut Ui, shown: &mut ShownSpan, commands: &mut Vec<Command>) {
-        let TimeLine { model, history, look, wheel } = *self;
+        let TimeLine { model, history, look, wheel, chance } = *self;
         let end = model.frontier.max(model.tick);
         let span = shown.follow(model.tick, end, model.playing);
         // a low screen has one lane for all
@@ -137,6 +146,12 @@ impl TimeLine<'_> {
         let scale = Scale { lanes: Rect::from_x_y_ranges(across, strip.y_range()), span };
         zoom(ui, &scale, end, wheel, shown);
         show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
+        if let Some(chance) = chance
+            && let Some(lane) = lanes.iter().position(|lane| lane.robot.is_none_or(|id| id == chance.robot))
+            && chance.show(ui, scale.lane(lane, lanes.len()), |tick| scale.x(tick), look)
+        {
+            commands.push(Command::Session(SessionCommand::PlayWayOut));
+        }
         axis(ui, &scale, look);
         out_of_sight(ui, &scale, model.tick, response.rect, look);
         if response.changed() && tick.min(end) != model.tick && is_meant(ui) {
@@ -202,12 +217,8 @@ fn show_lanes(
     commands: &mut Vec<Command>,
 ) {
     let height = scale.lanes.height() / lanes.len().max(1) as f32;
-    let rect_of = |k: usize| {
-        let top = scale.lanes.top() + k as f32 * height;
-        Rect::from_x_y_ranges(scale.lanes.x_range(), top..=top + height)
-    };
     for (k, lane) in lanes.iter().enumerate() {
-        let rect = rect_of(k);
+        let rect = scale.lane(k, lanes.len());
         if lanes.len() > 1 {
             let gap = if look.narrow { 6.0 } else { 12.0 };
             let across = ui.max_rect().left()..=rect.left() - gap;

@@ -11,7 +11,7 @@ use crate::window::ui::paint::button::{LabButton, SIGN, sign_width};
 use crate::window::ui::paint::fold::form;
 use crate::window::ui::paint::icon::Icon;
 use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
-use crate::window::ui::{Command, Dashboard, FrameColours, SeedDraft, UiState};
+use crate::window::ui::{Command, Dashboard, FrameColours, SeedDraft, SessionCommand, ShownChance, UiState};
 use motion_lab_core::picture::Role;
 use motion_lab_core::random::Seed;
 use motion_lab_sim::run::DT;
@@ -37,7 +37,12 @@ const SPEEDS: [(f64, &str); 11] = [
 ];
 
 /// Carries out an action that moves the run.
-pub fn act(action: TimeAction, model: &Dashboard, commands: &mut Vec<Command>) {
+pub fn act(action: TimeAction, model: &Dashboard, chance: Option<&ShownChance>, commands: &mut Vec<Command>) {
+    if action == TimeAction::Why {
+        let way_out = chance.is_some_and(|chance| chance.way_out.is_some());
+        commands.push(Command::Session(if way_out { SessionCommand::PlayWayOut } else { SessionCommand::Why }));
+        return;
+    }
     let at = SPEEDS.iter().position(|(speed, _)| *speed == model.speed);
     let speed = |at: Option<usize>| SPEEDS.get(at?).map(|(speed, _)| TransportCommand::SetSpeed(*speed));
     let command = match action {
@@ -54,12 +59,13 @@ pub fn act(action: TimeAction, model: &Dashboard, commands: &mut Vec<Command>) {
         TimeAction::Continue => (model.tick < model.frontier).then_some(TransportCommand::ContinueFromHere),
         TimeAction::Reset => Some(TransportCommand::Reset),
         TimeAction::ReRoll => Some(TransportCommand::ReRoll),
+        TimeAction::Why => None,
     };
     commands.extend(command.map(Command::from));
 }
 
 /// Width below which the bar takes two rows and a menu, points, and how many signs it holds else.
-const ONE_ROW: f32 = 960.0;
+const ONE_ROW: f32 = 1020.0;
 const GROUPED: f32 = 8.0;
 
 /// Width of the note beside the time, points.
@@ -81,7 +87,9 @@ pub fn transport_bar(
 ) {
     let narrow = look.narrow;
     let top = ui.available_rect_before_wrap().top();
-    TimeLine { model, history, look, wheel: !state.embedded }.show(ui, &mut state.span, commands);
+    let wheel = !state.embedded;
+    let line = TimeLine { model, history, look, wheel, chance: state.chance.as_ref() };
+    line.show(ui, &mut state.span, commands);
     ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };
     if look.low {
         // a low window has no room for two rows
@@ -103,8 +111,9 @@ pub fn transport_bar(
                 buttons(ui, model, look, group, commands);
                 ui.add_space(10.0);
             }
-            let (label, action) = MORE[2];
-            button(ui, model, (LabButton::new(label), action), look, commands);
+            for (label, action) in &MORE[2..] {
+                button(ui, model, (LabButton::new(label), *action), look, commands);
+            }
             ui.add_space(10.0);
             speed_choice(ui, model, commands);
             seed_and_time(ui, model, look, top, state, commands);
@@ -159,8 +168,12 @@ const GROUPS: [&[Signed]; 2] = [&[START, BACK, PLAY, STEP, NEXT, LOOP], &[RESET,
 
 /// The signs that a narrow screen shows at once. It keeps the others, as words, in a menu.
 const ESSENTIAL: [Signed; 6] = [BACK, PLAY, STEP, NEXT, RESET, RE_ROLL];
-const MORE: [(&str, TimeAction); 3] =
-    [("To the start", TimeAction::Start), ("Loop", TimeAction::Loop), ("Continue from here", TimeAction::Continue)];
+const MORE: [(&str, TimeAction); 4] = [
+    ("To the start", TimeAction::Start),
+    ("Loop", TimeAction::Loop),
+    ("Why?", TimeAction::Why),
+    ("Continue from here", TimeAction::Continue),
+];
 
 fn buttons(ui: &mut Ui, model: &Dashboard, look: &FrameColours, signs: &[Signed], commands: &mut Vec<Command>) {
     for &(label, icon, action) in signs {
@@ -186,11 +199,12 @@ fn button(
     let shown = match action {
         TimeAction::NextContact => shown.enabled(model.next_contact.is_some()),
         TimeAction::Continue => shown.enabled(model.tick < model.frontier),
+        TimeAction::Why => shown.enabled(model.has_contact),
         TimeAction::Loop => shown.selected(model.looping),
         _ => shown,
     };
     if shown.show(ui, look).on_hover_text(hint(action)).clicked() {
-        act(action, model, commands);
+        act(action, model, None, commands);
     }
 }
 
