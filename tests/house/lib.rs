@@ -47,6 +47,7 @@ const ORDER: [(&str, &[&str]); 5] = [
             "tasks",
             "export",
             "plans",
+            "avoid",
             "manifest",
             "capture",
         ],

@@ -45,6 +45,8 @@ const WRITTEN: [(&str, &[(&str, &str)]); 21] = [
             ("export IN -o OUT --every 9 --format gif", "run.mcap"),
         ],
     ),
+    ("why --output", &[("why IN --robot Reach --contact 1 -o OUT", "run.mcap")]),
+    ("why --script", &[("why IN --robot Reach --contact 1 --script OUT", "run.mcap")]),
     ("plot --output", &[("plot IN --what speed --format svg -o OUT", "run.mcap")]),
     (
         "capture --output",

@@ -12,3 +12,4 @@ pub mod replay;
 pub mod sealed_digests;
 pub mod stats;
 pub mod verify;
+mod why;
