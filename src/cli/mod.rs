@@ -14,7 +14,7 @@ use support::{gate, interrupt};
 
 use commands::{
     bare, capture, completions, describe, diff, export, grade, info, link, plan, plot, query, record, replay, script,
-    stats, sweep, verify, world,
+    shrink, stats, sweep, verify, world,
 };
 
 /// Examples and the exit codes, as `--help` and `docs/cli.md` list them.
@@ -34,7 +34,7 @@ Exit codes:
       has no path
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
-  75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare` keeps what it finished
+  75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare` and `shrink` keep what they found
  130  ended at once by Ctrl-C or a termination signal
 
 Data goes to standard output, messages to standard error.";
@@ -64,6 +64,7 @@ enum CliCommand {
     Diff(diff::Diff),
     Export(export::Export),
     Stats(stats::StatsArgs),
+    Shrink(Box<shrink::ShrinkArgs>),
     Plot(plot::PlotArgs),
     Info(info::Info),
     Link(link::LinkArgs),
@@ -125,6 +126,7 @@ impl Cli {
             Some(CliCommand::Info(info)) => info.run(data),
             Some(CliCommand::Link(link)) => link.run(data),
             Some(CliCommand::Stats(stats)) => stats.run(data),
+            Some(CliCommand::Shrink(shrink)) => shrink.run(data),
             Some(CliCommand::Plan(plan)) => plan.run(data),
             Some(CliCommand::Plot(plot)) => plot.run(data),
             Some(CliCommand::Query(query)) => query.run(data),

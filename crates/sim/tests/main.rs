@@ -5,6 +5,7 @@ mod obstacles;
 mod pins;
 mod runs;
 mod sensors;
+mod shrink;
 mod simulator;
 mod tasks;
 mod tick_oracle;
