@@ -22,7 +22,7 @@ const READ: [&str; 10] = [
 
 /// Options that name files to write, each with command lines that write `OUT` while they read `IN`, and the file that
 /// they read.
-const WRITTEN: [(&str, &[(&str, &str)]); 21] = [
+const WRITTEN: [(&str, &[(&str, &str)]); 22] = [
     (
         "record --output",
         &[
@@ -45,6 +45,7 @@ const WRITTEN: [(&str, &[(&str, &str)]); 21] = [
             ("export IN -o OUT --every 9 --format gif", "run.mcap"),
         ],
     ),
+    ("shrink --output", &[("shrink IN --while Rusty.path_m>0 -o OUT", "run.mcap")]),
     ("plot --output", &[("plot IN --what speed --format svg -o OUT", "run.mcap")]),
     (
         "capture --output",

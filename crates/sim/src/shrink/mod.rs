@@ -33,6 +33,7 @@ mod reading;
 mod round;
 mod search;
 mod size;
+mod starts;
 mod without;
 
 pub use condition::{Condition, Relation};

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
+use super::starts::in_contact_at_start;
 use super::without::as_from_a_file;
 use crate::run::{Quantized, Recipe, RobotInput, WorldChange};
 use motion_lab_core::geometry::{Point2, Pose2, Shape, ShapeError};
@@ -29,7 +30,7 @@ pub(super) enum Rounded {
 }
 
 /// The recipe with the numbers of these things rounded to this number of decimals. `None` where they then make no
-/// world.
+/// world, or where a robot would start in contact that does not now.
 pub(super) fn rounded(recipe: &Recipe, things: &BTreeSet<Rounded>, decimals: i32) -> Option<Recipe> {
     let mut left = recipe.clone();
     let mut shaped = BTreeSet::new();
@@ -57,7 +58,9 @@ pub(super) fn rounded(recipe: &Recipe, things: &BTreeSet<Rounded>, decimals: i32
         let world = Arc::make_mut(&mut left.config).worlds.get_mut(w)?;
         *world = as_from_a_file(world)?;
     }
-    Some(left)
+    let is_input = |thing: &Rounded| matches!(thing, Rounded::Event(_) | Rounded::Change(_));
+    let stands_clear = || in_contact_at_start(&left).is_subset(&in_contact_at_start(recipe));
+    (things.iter().all(is_input) || stands_clear()).then_some(left)
 }
 
 /// The things of a recipe that this number of decimals changes; only those of the script where worlds stay as they are.

@@ -230,7 +230,7 @@ fn judge(number: u64, Planted { cause, recipe }: &Planted, shrunk: &Shrunk) {
 /// `MOTION_LAB_SHRUNK` sets the number of runs.
 #[test]
 fn what_is_left_of_a_run_with_one_planted_cause_is_the_cause_whatever_the_number_of_jobs() {
-    let runs = count_from_env("MOTION_LAB_SHRUNK", 20);
+    let runs = count_from_env("MOTION_LAB_SHRUNK", 5);
     let condition = Condition::parse(&format!("{DRIVEN}.contacts > 0")).unwrap();
     let (mut tries, mut taken) = (0, 0);
     for number in 0..runs {
