@@ -56,7 +56,8 @@ pub struct Shrunk {
 
 impl Shrunk {
     /// Whether the recipe is 1-minimal: without any single thing of it, or a tick shorter, or with one thing's numbers
-    /// rounded further, it does not hold. What refers to a thing goes with it.
+    /// rounded further as long as all else stays needed, it does not hold. What refers to a thing goes with it, and
+    /// worlds that are kept as they are count as one thing each.
     pub fn is_minimal(&self) -> bool {
         self.end == ShrinkEnd::Minimal
     }

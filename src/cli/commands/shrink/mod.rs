@@ -108,7 +108,7 @@ impl ShrinkArgs {
         let mut bytes = Vec::new();
         small.write_mcap(&mut bytes).map_err(Failure::internal)?;
         write_file(&target, &bytes)?;
-        let report = ShrinkReport::new(&shrunk, &small, &self.site.site);
+        let report = ShrinkReport::new(&shrunk, &small, self.keep_worlds, &self.site.site);
         if self.json {
             data.json(&report)?
         } else {

@@ -19,6 +19,8 @@ pub struct ShrinkReport {
     #[serde(rename = "minimal")]
     is_minimal: bool,
     digest: String,
+    #[serde(skip)]
+    keeps_worlds: bool,
     /// The address of the run; null where it fits in none.
     link: Option<String>,
     /// Why it fits in none.
@@ -62,7 +64,7 @@ impl SizeRow {
 
 impl ShrinkReport {
     /// The report of a shrunk run with its log, for the page at this address.
-    pub fn new(shrunk: &Shrunk, log: &Log, site: &str) -> Self {
+    pub fn new(shrunk: &Shrunk, log: &Log, keeps_worlds: bool, site: &str) -> Self {
         let digest = match &log.recorded {
             Recorded::Digests(digests) => digests.whole,
             Recorded::Frames { .. } => log.digest(),
@@ -75,7 +77,7 @@ impl ShrinkReport {
         };
         let (before, after) = (SizeRow::new(&shrunk.before), SizeRow::new(&shrunk.after));
         let (tries, is_minimal) = (shrunk.tries, shrunk.is_minimal());
-        ShrinkReport { before, after, tries, is_minimal, digest, link, no_link }
+        ShrinkReport { before, after, tries, is_minimal, keeps_worlds, digest, link, no_link }
     }
 
     /// Prints a table of what there was and what is left, then the digest and the link.
@@ -86,7 +88,8 @@ impl ShrinkReport {
         }
         let tried = counted(self.tries, "run");
         if self.is_minimal {
-            data.line(format!("1-minimal, after {tried}: without any of this, or a tick shorter, it is not shown"))?;
+            let parts = if self.keeps_worlds { "one of its worlds, events and changes" } else { "any one of these" };
+            data.line(format!("1-minimal, after {tried}: without {parts}, or a tick shorter, it is not shown"))?;
         }
         data.line(format!("digest {}", self.digest))?;
         if let Some(reason) = &self.no_link {
