@@ -3,7 +3,7 @@
 use crate::run::{DigestError, StatsColumn};
 use motion_lab_core::names::hint;
 
-/// Why a condition is refused, and where. Prints as `character 7: no column "contact"; did you mean "contacts"? ...`.
+/// Why a condition is refused, and where. Prints as `character 1: no column "contact"; did you mean "contacts"?`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("character {at}: {problem}")]
 #[non_exhaustive]
@@ -34,7 +34,7 @@ pub enum ConditionProblem {
     #[error("the quote is not closed")]
     Quote,
     /// A column that there is not.
-    #[error("no column {name:?}{}; the columns are {}", hint(.meant.as_deref()), columns())]
+    #[error("no column {name:?}{}", columns(.meant.as_deref()))]
     Column {
         /// The name.
         name: String,
@@ -60,8 +60,12 @@ pub enum ConditionProblem {
     DigestRelation,
 }
 
-fn columns() -> String {
-    StatsColumn::ALL.map(|column| column.name).join(", ")
+/// The column that was meant, else all that there are.
+fn columns(meant: Option<&str>) -> String {
+    match meant {
+        Some(_) => hint(meant),
+        None => format!("; the columns are {}", StatsColumn::ALL.map(|column| column.name).join(", ")),
+    }
 }
 
 impl ConditionProblem {

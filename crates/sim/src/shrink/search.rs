@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::first::first_holding;
-use super::part::{Part, PartGroup};
+use super::removal::{Removal, RemovalGroup};
 use super::round::{DECIMALS, Rounded, roundable, rounded};
 use super::size::RecipeSize;
 use super::without::{up_to, without};
@@ -100,17 +100,17 @@ struct Shrinking<'a, H, G> {
 }
 
 impl<H: Fn(&Recipe) -> bool + Sync, G: Fn() -> bool + Sync> Shrinking<'_, H, G> {
-    /// The groups of parts that may be taken away.
-    fn groups(&self) -> impl Iterator<Item = PartGroup> + use<H, G> {
+    /// The groups of removals that are allowed.
+    fn groups(&self) -> impl Iterator<Item = RemovalGroup> + use<H, G> {
         let keeps_worlds = self.options.keeps_worlds;
-        PartGroup::ALL.into_iter().filter(move |group| !keeps_worlds || group.leaves_worlds())
+        RemovalGroup::ALL.into_iter().filter(move |group| !keeps_worlds || group.leaves_worlds())
     }
 
     /// Tries to take away everything once. Returns whether anything was, and more is to be tried.
     fn remove(&mut self) -> bool {
         let mut is_smaller = false;
         for group in self.groups() {
-            is_smaller |= self.reduce(group.parts(&self.best), without, |_, _| true);
+            is_smaller |= self.reduce(group.removals(&self.best), without, |_, _| true);
             // shorter runs make all that follows quicker
             if group.leaves_worlds() {
                 is_smaller |= self.shorten();
@@ -131,11 +131,11 @@ impl<H: Fn(&Recipe) -> bool + Sync, G: Fn() -> bool + Sync> Shrinking<'_, H, G> 
         is_smaller && self.end.is_none()
     }
 
-    /// Whether a recipe that holds does so no longer without any single part of it.
+    /// Whether a recipe that holds does so no longer after any single removal.
     fn needs_all(&mut self, recipe: &Recipe) -> bool {
-        let parts: Vec<Part> = self.groups().flat_map(|group| group.parts(recipe)).collect();
-        let candidate = |i: usize| without(recipe, &BTreeSet::from([*parts.get(i)?]));
-        self.first(parts.len(), candidate).is_none() && self.end.is_none()
+        let removals: Vec<Removal> = self.groups().flat_map(|group| group.removals(recipe)).collect();
+        let candidate = |i: usize| without(recipe, &BTreeSet::from([*removals.get(i)?]));
+        self.first(removals.len(), candidate).is_none() && self.end.is_none()
     }
 
     /// Applies `change` to as many of these things as it can: to all, to halves of them, down to each. A recipe that

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Shape};
+use motion_lab_core::num;
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::{Door, Mark, Obstacle, ObstacleKind, Place, Resident, ResidentSensor, World};
@@ -51,7 +52,7 @@ impl Planted {
         let start = Pose2::new(draws.uniform(-0.5, 0.5), draws.uniform(-0.5, 0.5), draws.uniform(-3.0, 3.0));
         // what it meets stands across its way, from 0.4 m to 0.8 m before its centre
         let ahead = |by: f64, aside: f64| {
-            let (sin, cos) = start.theta.sin_cos();
+            let (sin, cos) = (num::sin(start.theta), num::cos(start.theta));
             Point2::new(start.x + by * cos - aside * sin, start.y + by * sin + aside * cos)
         };
         let by = draws.uniform(0.4, 0.8);
@@ -122,7 +123,7 @@ fn clutter(draws: &mut Stream, name: &str) -> World {
     let count = 3 + draws.below(8);
     let at = |i: u64, draws: &mut Stream| {
         let (angle, far) = (TAU * i as f64 / count as f64, draws.uniform(9.0, 12.0));
-        Point2::new(far * angle.cos(), far * angle.sin())
+        Point2::new(far * num::cos(angle), far * num::sin(angle))
     };
     for i in 0..count {
         let p = at(i, draws);

@@ -11,7 +11,7 @@ use motion_lab::run::{LogKind, Recipe};
 
 use crate::cli::Failure;
 
-/// What stands for the path of a candidate's log.
+/// What stands for the path of a candidate's log; without it the path is the command's last word.
 const PATH: &str = "{}";
 
 /// A command that is run for each candidate.
@@ -27,12 +27,9 @@ pub struct ExitCheck {
 impl ExitCheck {
     /// The check by a command, whose candidates' logs are of this kind.
     pub fn new(command: &str, expected: u8, kind: LogKind) -> Result<Self, Failure> {
-        if !command.contains(PATH) {
-            let next = "Write {} where the path of the candidate's log belongs: --exec 'other-lab verify {}'.";
-            return Err(Failure::usage(format!("--exec {command:?}: it reads no run"), next));
-        }
+        let command = if command.contains(PATH) { command.to_owned() } else { format!("{command} {PATH}") };
         let folder = PassingFolder::new().map_err(|error| Failure::output(&std::env::temp_dir(), &error))?;
-        Ok(ExitCheck { command: command.to_owned(), expected, kind, folder, next: AtomicU64::new(0) })
+        Ok(ExitCheck { command, expected, kind, folder, next: AtomicU64::new(0) })
     }
 
     /// Whether the command ends as expected for a recipe's run. False for one that cannot start.

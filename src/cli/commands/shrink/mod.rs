@@ -35,10 +35,10 @@ use shown::Shown;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  motion-lab shrink run.mcap --while Hitch.contacts>0
-  motion-lab shrink run.mcap --while 'Rusty.refusals>0&&Rusty.path_m<2.5' -o small.mcap
-  motion-lab shrink run.mcap --exec ./differs --exit 4
-  motion-lab shrink run.mcap --while Hitch.contacts>0 --keep-worlds --json")]
+  motion-lab shrink run.mcap --while Hitch.contacts!=0
+  motion-lab shrink run.mcap --while Rusty.refusals==2 -o small.mcap
+  motion-lab shrink run.mcap --exec ./check --exit 4
+  motion-lab shrink run.mcap --while Hitch.contacts!=0 --keep-worlds --json")]
 pub struct ShrinkArgs {
     /// The log of the run; `-` is standard input.
     #[arg(value_name = "RUN")]
@@ -47,7 +47,7 @@ pub struct ShrinkArgs {
     #[arg(long = "while", value_name = "CONDITION", required_unless_present = "exec")]
     condition: Option<Condition>,
     /// A command that tells by its exit code whether a run shows it. `sh` runs it for each candidate, with the path of
-    /// the candidate's log in place of {}: 'other-lab verify {}'. With --while too, both have to hold.
+    /// the candidate's log in place of {}, or behind it: 'other-lab verify {}'. With --while too, both have to hold.
     #[arg(long, value_name = "COMMAND")]
     exec: Option<String>,
     /// The exit code of that command where a run shows it. [default: 0]

@@ -1,6 +1,6 @@
-//! What goes with a part, and what worlds are left.
+//! What goes with a removal, and what worlds are left.
 
-use super::super::part::PartGroup;
+use super::super::removal::RemovalGroup;
 use super::*;
 use crate::run::Quantized;
 use motion_lab_core::random::Seed;
@@ -51,12 +51,12 @@ fn recipe() -> Recipe {
     Recipe::new(config, (Seed(3), script))
 }
 
-fn left(parts: &[Part]) -> Recipe {
-    let left = without(&recipe(), &parts.iter().copied().collect()).unwrap();
-    assert_eq!(left.script.check_for(&left.config), Ok(()), "{parts:?}");
-    assert_eq!(left.config.validate(), Ok(()), "{parts:?}");
+fn left(removals: &[Removal]) -> Recipe {
+    let left = without(&recipe(), &removals.iter().copied().collect()).unwrap();
+    assert_eq!(left.script.check_for(&left.config), Ok(()), "{removals:?}");
+    assert_eq!(left.config.validate(), Ok(()), "{removals:?}");
     for world in &left.config.worlds {
-        assert_eq!(World::parse("left.ron", &world.to_ron()).as_ref(), Ok(world), "{parts:?}");
+        assert_eq!(World::parse("left.ron", &world.to_ron()).as_ref(), Ok(world), "{removals:?}");
     }
     left
 }
@@ -70,39 +70,39 @@ fn inputs(recipe: &Recipe) -> (Vec<(u64, &str)>, Vec<&str>) {
 
 #[test]
 fn what_refers_to_a_part_goes_with_it() {
-    let of = |part| Part::Of(0, part);
+    let of = |removal| Removal::Of(0, removal);
     let all = [(1, "new"), (2, "gate"), (3, "new"), (4, "post"), (5, "heap")];
     let rest = |names: &[&str]| all.into_iter().filter(|(_, name)| !names.contains(name)).collect::<Vec<_>>();
     assert!(left(&[]) == recipe());
-    assert_eq!(inputs(&left(&[of(WorldPart::Robot(0))])), (all.to_vec(), vec!["B"]));
-    assert_eq!(inputs(&left(&[of(WorldPart::Door(0))])), (rest(&["gate"]), vec!["A", "B"]));
-    assert_eq!(inputs(&left(&[of(WorldPart::Obstacle(2))])), (rest(&["post"]), vec!["A", "B"]));
-    assert_eq!(inputs(&left(&[Part::Change(0)])), (rest(&["new"]), vec!["A", "B"]));
-    assert_eq!(inputs(&left(&[Part::Change(2), Part::Event(0)])).0, [all[0], all[1], all[3], all[4]]);
-    assert_eq!(inputs(&left(&[Part::World(0)])), (vec![], vec![]));
-    assert_eq!(left(&[Part::World(0)]).script.version, 1);
-    let pieces = [0, 1, 2].map(|p| of(WorldPart::Piece(1, p)));
+    assert_eq!(inputs(&left(&[of(WorldRemoval::Robot(0))])), (all.to_vec(), vec!["B"]));
+    assert_eq!(inputs(&left(&[of(WorldRemoval::Door(0))])), (rest(&["gate"]), vec!["A", "B"]));
+    assert_eq!(inputs(&left(&[of(WorldRemoval::Obstacle(2))])), (rest(&["post"]), vec!["A", "B"]));
+    assert_eq!(inputs(&left(&[Removal::Change(0)])), (rest(&["new"]), vec!["A", "B"]));
+    assert_eq!(inputs(&left(&[Removal::Change(2), Removal::Event(0)])).0, [all[0], all[1], all[3], all[4]]);
+    assert_eq!(inputs(&left(&[Removal::World(0)])), (vec![], vec![]));
+    assert_eq!(left(&[Removal::World(0)]).script.version, 1);
+    let pieces = [0, 1, 2].map(|p| of(WorldRemoval::Piece(1, p)));
     assert_eq!(inputs(&left(&pieces)).0, rest(&["heap"]), "without its pieces it is not there");
-    let routeless = left(&[of(WorldPart::Route(0))]);
+    let routeless = left(&[of(WorldRemoval::Route(0))]);
     assert!(routeless.config.worlds[0].robots[0].route.is_none());
-    let afoot = left(&[of(WorldPart::Following(0))]);
+    let afoot = left(&[of(WorldRemoval::Following(0))]);
     assert!(afoot.config.worlds[0].robots[0].route.is_none() && afoot.config.worlds[0].routes.len() == 1);
-    let one_eyed = left(&[of(WorldPart::Sensor(0, 0)), Part::RunSensor]);
+    let one_eyed = left(&[of(WorldRemoval::Sensor(0, 0)), Removal::RunSensor]);
     assert_eq!(one_eyed.config.worlds[0].robots[0].sensors[0].name, "rear");
     assert!(one_eyed.config.sensor.is_none());
 }
 
 #[test]
 fn pieces_are_shapes_as_written_and_what_is_left_is_as_from_a_file() {
-    let parts = PartGroup::Pieces.parts(&recipe());
-    let of_first = |part: &&Part| matches!(part, Part::Of(0, _));
-    assert_eq!(parts.iter().filter(of_first).count(), 7, "four sides and three shapes");
-    for part in parts {
-        let recipe = left(&[part]);
-        let Part::Of(w, WorldPart::Piece(o, p)) = part else { panic!("{part:?}") };
+    let removals = RemovalGroup::Pieces.removals(&recipe());
+    let of_first = |removal: &&Removal| matches!(removal, Removal::Of(0, _));
+    assert_eq!(removals.iter().filter(of_first).count(), 7, "four sides and three shapes");
+    for removal in removals {
+        let recipe = left(&[removal]);
+        let Removal::Of(w, WorldRemoval::Piece(o, p)) = removal else { panic!("{removal:?}") };
         let before = &self::recipe().config.worlds[w].obstacles[o];
         let after = recipe.config.worlds[w].obstacle(&before.name).unwrap();
-        assert_eq!(after.written().len(), before.written().len() - 1, "{part:?}");
+        assert_eq!(after.written().len(), before.written().len() - 1, "{removal:?}");
         if before.name == "heap" {
             assert_eq!(after.outlines.len(), usize::from(p != 1));
         }
@@ -112,13 +112,13 @@ fn pieces_are_shapes_as_written_and_what_is_left_is_as_from_a_file() {
 #[test]
 fn every_single_part_leaves_a_recipe_that_runs() {
     let mut seen = 0;
-    for part in PartGroup::ALL.into_iter().flat_map(|group| group.parts(&recipe())) {
+    for removal in RemovalGroup::ALL.into_iter().flat_map(|group| group.removals(&recipe())) {
         seen += 1;
-        let left = left(&[part]);
-        assert!(left != recipe(), "{part:?}");
-        assert!(crate::recording::Recorder::of(&left).is_ok(), "{part:?}");
+        let left = left(&[removal]);
+        assert!(left != recipe(), "{removal:?}");
+        assert!(crate::recording::Recorder::of(&left).is_ok(), "{removal:?}");
     }
-    assert!(seen > 30, "{seen} parts");
+    assert!(seen > 30, "{seen} removals");
 }
 
 #[test]
