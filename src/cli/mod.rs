@@ -14,7 +14,7 @@ use support::{gate, interrupt};
 
 use commands::{
     bare, capture, completions, describe, diff, export, grade, info, link, plan, plot, query, record, replay, script,
-    stats, sweep, verify, why, world,
+    shrink, stats, sweep, verify, why, world,
 };
 
 /// Examples and the exit codes, as `--help` and `docs/cli.md` list them.
@@ -34,7 +34,7 @@ Exit codes:
       has no path
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
-  75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare` keeps what it finished
+  75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare` and `shrink` keep what they found
  130  ended at once by Ctrl-C or a termination signal
 
 Data goes to standard output, messages to standard error.";
@@ -65,6 +65,7 @@ enum CliCommand {
     Export(export::Export),
     Stats(stats::StatsArgs),
     Why(Box<why::WhyArgs>),
+    Shrink(Box<shrink::ShrinkArgs>),
     Plot(plot::PlotArgs),
     Info(info::Info),
     Link(link::LinkArgs),
@@ -127,6 +128,7 @@ impl Cli {
             Some(CliCommand::Link(link)) => link.run(data),
             Some(CliCommand::Stats(stats)) => stats.run(data),
             Some(CliCommand::Why(why)) => why.run(data),
+            Some(CliCommand::Shrink(shrink)) => shrink.run(data),
             Some(CliCommand::Plan(plan)) => plan.run(data),
             Some(CliCommand::Plot(plot)) => plot.run(data),
             Some(CliCommand::Query(query)) => query.run(data),

@@ -44,6 +44,7 @@ const ORDER: [(&str, &[&str]); 5] = [
             "simulation",
             "recording",
             "course",
+            "shrink",
             "tasks",
             "export",
             "plans",

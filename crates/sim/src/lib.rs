@@ -29,6 +29,8 @@ pub mod recording;
 
 pub mod course;
 
+pub mod shrink;
+
 pub mod tasks;
 
 pub mod export;

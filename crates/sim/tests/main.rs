@@ -6,6 +6,7 @@ mod obstacles;
 mod pins;
 mod runs;
 mod sensors;
+mod shrink;
 mod simulator;
 mod tasks;
 mod tick_oracle;

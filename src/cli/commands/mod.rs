@@ -17,6 +17,7 @@ pub(crate) mod query;
 pub(crate) mod record;
 pub(crate) mod replay;
 pub(crate) mod script;
+pub(crate) mod shrink;
 pub(crate) mod stats;
 pub(crate) mod sweep;
 #[cfg(feature = "headless")]

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use motion_lab::configuration::Kinds;
 use motion_lab::export::{JsonNumber, json_seed};
-use motion_lab::run::{Recipe, RobotStats, RunStats, StatsGatherer, seconds};
-use serde::Serialize;
+use motion_lab::run::{Recipe, RobotStats, RunStats, StatsColumn, StatsGatherer, StatsNumber, seconds};
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
 
 use crate::cli::support::input::{shown, worst_of_each};
 use crate::cli::support::log_source::{LogSource, read_log, say_damage};
@@ -44,22 +45,25 @@ struct LogStats<'a> {
     robots: Vec<RobotStatsRow<'a>>,
 }
 
-/// A robot's stats as JSON.
-#[derive(Serialize)]
-struct RobotStatsRow<'a> {
-    name: &'a str,
-    kind: &'a str,
-    world: &'a str,
-    contacts: u32,
-    contact_ticks: u64,
-    contact_s: JsonNumber,
-    /// Null where it is not known.
-    path_m: Option<JsonNumber>,
-    /// Null in a world without obstacles.
-    least_clearance_m: Option<JsonNumber>,
-    /// The tick of the least clearance.
-    least_clearance_tick: Option<u64>,
-    refusals: u32,
+/// A robot's stats as JSON: its names, then its numbers, null where one is not known.
+struct RobotStatsRow<'a>(&'a RobotStats);
+
+impl Serialize for RobotStatsRow<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let RobotStatsRow(robot) = self;
+        let mut row = serializer.serialize_map(None)?;
+        row.serialize_entry("name", &robot.name)?;
+        row.serialize_entry("kind", &robot.kind)?;
+        row.serialize_entry("world", &robot.world)?;
+        for column in StatsColumn::ALL {
+            match column.number(robot) {
+                Some(StatsNumber::Whole(count)) => row.serialize_entry(column.name, &count)?,
+                Some(StatsNumber::Measure(value)) => row.serialize_entry(column.name, &JsonNumber(value))?,
+                None => row.serialize_entry(column.name, &())?,
+            }
+        }
+        row.end()
+    }
 }
 
 impl StatsArgs {
@@ -96,20 +100,8 @@ impl StatsArgs {
 
 impl<'a> LogStats<'a> {
     fn new(file: &Path, seed: u64, stats: &'a RunStats) -> Self {
-        let robot = |robot: &'a RobotStats| RobotStatsRow {
-            name: &robot.name,
-            kind: &robot.kind,
-            world: &robot.world,
-            contacts: robot.contacts,
-            contact_ticks: robot.contact_ticks,
-            contact_s: JsonNumber(robot.contact_seconds()),
-            path_m: robot.path_length.map(JsonNumber),
-            least_clearance_m: robot.least_clearance.map(|least| JsonNumber(least.metres)),
-            least_clearance_tick: robot.least_clearance.map(|least| least.tick),
-            refusals: robot.refusals,
-        };
         let time = JsonNumber(seconds(stats.ticks));
-        let robots = stats.robots.iter().map(robot).collect();
+        let robots = stats.robots.iter().map(RobotStatsRow).collect();
         LogStats { file: shown(file), seed, ticks: stats.ticks, seconds: time, robots }
     }
 }

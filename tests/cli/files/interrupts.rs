@@ -69,6 +69,24 @@ fn a_recording_that_is_ended_twice_is_kept_all_the_same() {
 }
 
 #[test]
+fn a_search_for_a_smaller_run_that_is_ended_keeps_the_best_so_far() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    run_in(at, &["record", "--ticks", "30", "-o", "run.mcap"]).done();
+    fs::write(at.join("check"), "#!/bin/sh\necho tried >> seen\nsleep 0.1\n").unwrap();
+    fs::set_permissions(at.join("check"), fs::Permissions::from_mode(0o755)).unwrap();
+    let seen = || fs::read_to_string(at.join("seen")).map_or(0, |text| text.lines().count());
+    let ended = interrupted(at, "shrink run.mcap --exec ./check<{} --jobs 1", 1, || seen() > 4);
+    assert_eq!(ended.code, Some(75), "{}", ended.err);
+    assert!(ended.err.contains("less may show it too") && ended.out.contains("worlds"), "{}", ended.err);
+    assert_eq!(names(at), ["check", "run.mcap", "run.shrunk.mcap", "seen"]);
+    run_in(at, &["verify", "run.shrunk.mcap"]).done();
+    let size = |name: &str| fs::metadata(at.join(name)).unwrap().len();
+    assert!(size("run.shrunk.mcap") < size("run.mcap") && seen() < 20, "{} tries", seen());
+}
+
+#[test]
 fn a_comparison_that_is_ended_keeps_the_attempts_that_it_finished() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

@@ -22,7 +22,7 @@ const READ: [&str; 10] = [
 
 /// Options that name files to write, each with command lines that write `OUT` while they read `IN`, and the file that
 /// they read.
-const WRITTEN: [(&str, &[(&str, &str)]); 21] = [
+const WRITTEN: [(&str, &[(&str, &str)]); 24] = [
     (
         "record --output",
         &[
@@ -47,6 +47,7 @@ const WRITTEN: [(&str, &[(&str, &str)]); 21] = [
     ),
     ("why --output", &[("why IN --robot Reach --contact 1 -o OUT", "run.mcap")]),
     ("why --script", &[("why IN --robot Reach --contact 1 --script OUT", "run.mcap")]),
+    ("shrink --output", &[("shrink IN --while Rusty.path_m>0 -o OUT", "run.mcap")]),
     ("plot --output", &[("plot IN --what speed --format svg -o OUT", "run.mcap")]),
     (
         "capture --output",

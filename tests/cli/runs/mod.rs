@@ -10,6 +10,7 @@ pub mod progress;
 pub mod record;
 pub mod replay;
 pub mod sealed_digests;
+pub mod shrink;
 pub mod stats;
 pub mod verify;
 mod why;

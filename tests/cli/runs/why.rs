@@ -51,7 +51,10 @@ fn a_contact_has_two_last_chances_and_a_way_out_that_verifies() {
     assert!(script.contains(r#"(tick: 1, robot: "Rusty", input: Drive(128, 0))"#), "{script}");
     let [channel, turn] = [0, 1].map(|k| one["going_on"]["channels"][0][1][k].as_i64().unwrap());
     assert_eq!(channel, 128, "it keeps its speed");
-    assert!(script.contains(&format!(r#"(tick: {last}, robot: "Hitch", input: Drive({channel}, {turn}))"#)), "{script}");
+    assert!(
+        script.contains(&format!(r#"(tick: {last}, robot: "Hitch", input: Drive({channel}, {turn}))"#)),
+        "{script}"
+    );
 }
 
 #[test]

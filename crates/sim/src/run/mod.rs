@@ -38,5 +38,7 @@ pub use script_check::check_target;
 pub use script_error::{
     MAX_CHANGED_SHAPES, MAX_CHANNEL, MAX_COORDINATES, MAX_EVENTS, ScriptError, ScriptProblem, UnfitInput,
 };
-pub use stats::{LeastClearance, Quantity, RobotStats, RunStats, Series, SeriesGatherer, StatsGatherer};
+pub use stats::{
+    LeastClearance, Quantity, RobotStats, RunStats, Series, SeriesGatherer, StatsColumn, StatsGatherer, StatsNumber,
+};
 pub use world_change::{WorldChange, WorldEvent};

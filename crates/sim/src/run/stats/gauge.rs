@@ -85,6 +85,11 @@ impl<'a> Gauge<'a> {
         Gauge { script, kinds, standing: StandingScenes::new(config, script), robots, measures_clearance }
     }
 
+    /// The same, which measures no clearances.
+    pub(super) fn without_clearance(self) -> Self {
+        Gauge { measures_clearance: false, ..self }
+    }
+
     /// Measures the robots at the next frame, in the order of their ids.
     pub(super) fn read(&mut self, frame: &Frame) -> Vec<GaugeReading> {
         let Gauge { script, kinds, standing, robots, measures_clearance } = self;

@@ -111,6 +111,12 @@ impl<'a> StatsGatherer<'a> {
         StatsGatherer { gauge: Gauge::new(config, script, kinds, true), stats }
     }
 
+    /// The same without clearances, which take most of the time.
+    #[must_use]
+    pub fn without_clearance(self) -> Self {
+        StatsGatherer { gauge: self.gauge.without_clearance(), ..self }
+    }
+
     /// Sees the next frame; the first one is that of tick 0.
     pub fn see(&mut self, frame: &Frame) {
         let readings = self.gauge.read(frame);
