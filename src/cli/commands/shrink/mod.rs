@@ -26,9 +26,9 @@ use shown::Shown;
 /// Shrink a run to the smallest one that still shows something: fewer worlds, robots, obstacles and inputs, less time,
 /// numbers with fewer digits.
 ///
-/// A condition compares what `stats` counts, ROBOT.COLUMN: contacts, contact_ticks, contact_s, path_m,
-/// least_clearance_m, least_clearance_tick, refusals; or the digest, by == or !=. Comparisons are joined by && and ||,
-/// of which && binds closer. A name with one of the characters <>=!&|" stands between quotes.
+/// A condition compares the numbers of robots that `stats --json` lists, ROBOT.COLUMN, such as Hitch.contacts and
+/// Rusty.path_m, or the digest, by == or !=. Comparisons are joined by && and ||, of which && binds closer. A name with
+/// one of the characters <>=!&|" stands between quotes.
 ///
 /// What is left is 1-minimal: without any single thing of it, or a tick shorter, it no longer shows it. It is the same
 /// for any number of jobs. After Ctrl-C or the last try allowed, the best so far is kept, and the exit code is 75.
