@@ -7,7 +7,7 @@ use bevy::platform::time::Instant;
 use bevy::prelude::*;
 
 use super::error::SessionError;
-use super::why::explained;
+use super::explained::explained;
 use crate::window::ui::{Interface, Notice, Working};
 use motion_lab_sim::avoid::{Explaining, Explanation};
 use motion_lab_sim::manifest::Widget;

@@ -6,6 +6,7 @@ mod crowd_views;
 #[cfg(feature = "window")]
 pub mod desktop;
 mod error;
+mod explained;
 mod input_order;
 mod lab_systems;
 mod modifiers;

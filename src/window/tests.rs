@@ -13,7 +13,6 @@ mod plan;
 mod safe;
 mod screen;
 mod time;
-mod why;
 mod widgets;
 mod work;
 

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::background;
-use crate::window::ui::{Interface, Notice, ShownChance};
-use motion_lab_sim::avoid::{AddKinds, EvasionSet, Explaining, Explanation, LastChance};
+use crate::window::ui::{Interface, Notice};
+use motion_lab_sim::avoid::{AddKinds, EvasionSet, Explaining};
 use motion_lab_sim::run::{Recipe, seconds};
 use motion_lab_sim::simulation::{
     Happening, History, Playback, RobotKinds, RunConfig, TickMark, Transport, recipe, take_script,
@@ -41,18 +41,6 @@ pub fn explain(world: &mut World) {
     }
 }
 
-/// Keeps what is known of a contact: the time line shows it, and a notice says it.
-pub fn explained(world: &mut World, why: &Explanation) {
-    let config = world.resource::<RunConfig>().config();
-    let robot = config.robot_names().position(|name| name == why.episode.robot).unwrap_or_default() as u32;
-    let way_out = why.going_on.evasion().or_else(|| why.stopping.evasion()).cloned();
-    let text = words(why);
-    let first = why.episode.first;
-    let config = Arc::clone(config);
-    let chance = ShownChance { robot, contact: first, way_out, text, config, is_asked: false };
-    world.resource_mut::<Interface>().0.chance = Some(chance);
-}
-
 /// Plays the way out of the contact that was explained last: a branch of the run, which an undo takes back.
 pub fn play_way_out(world: &mut World) {
     background::stop(world);
@@ -85,25 +73,4 @@ pub fn forget_if_other(world: &mut World) {
 
 fn say(world: &mut World, text: String, is_error: bool) {
     world.resource_mut::<Interface>().0.say(Notice { text, is_error });
-}
-
-/// What is known of a contact, in a sentence or two.
-fn words(why: &Explanation) -> String {
-    let (episode, at) = (&why.episode, seconds(why.episode.first));
-    let before = |tick: u64| seconds(episode.first - tick);
-    let met = format!("{} meets {} at {at:.2} s.", episode.robot, episode.with);
-    let stops = match &why.stopping {
-        LastChance::At(stop) if stop.tick == episode.first => "It could stop until then".to_owned(),
-        LastChance::At(stop) => format!("It could stop until {:.2} s before", before(stop.tick)),
-        LastChance::None(_) => "Stopping did not help".to_owned(),
-    };
-    let goes_on = match &why.going_on {
-        LastChance::At(evasion) if evasion.tick == episode.first => "and go round it until then, too.".to_owned(),
-        LastChance::At(evasion) => {
-            format!("and steer away until {:.2} s before, not later.", before(evasion.tick))
-        }
-        LastChance::None(none) => format!("; on its way: {none}."),
-    };
-    let joint = if goes_on.starts_with(';') { "" } else { " " };
-    format!("{met} {stops}{joint}{goes_on}")
 }

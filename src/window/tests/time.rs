@@ -1,5 +1,7 @@
 //! Moving through time: scrubbing, seeds, loops, speeds, frame rates.
 
+mod why;
+
 use super::screen::{keys, wheel};
 use super::*;
 

@@ -1,18 +1,11 @@
 //! `Approach`, the run up to a contact and to its end.
 
 use std::collections::VecDeque;
-use std::sync::Arc;
 
-use bevy::app::App;
-
-use super::episode::without_sensors;
+use super::simulated_again::{AddKinds, alone, recorder, without_sensors};
 use super::{AvoidError, ContactEpisode, ContactPartner};
-use crate::recording::{Recorder, RunError};
-use crate::run::{Frame, Recipe, Script};
-use crate::tour::TourConfig;
-
-/// What adds further kinds of robots to an app, as a [`RobotPlugin`](crate::simulation::RobotPlugin).
-pub type AddKinds = Arc<dyn Fn(&mut App) + Send + Sync>;
+use crate::recording::Recorder;
+use crate::run::{Frame, Recipe};
 
 /// The run up to a contact and to its end, tick by tick.
 pub(super) struct Approach {
@@ -92,25 +85,4 @@ impl Approach {
             with: ContactPartner::of(&self.run, robot, &all),
         })
     }
-}
-
-/// A recorder with further kinds of robots.
-pub(super) fn recorder(recipe: &Recipe, add: Option<&AddKinds>) -> Result<Recorder, RunError> {
-    let added = |app: &mut App| {
-        if let Some(add) = add {
-            add(app);
-        }
-    };
-    Recorder::of_with_robots(recipe, added)
-}
-
-/// The run of one world of it. What happens in a world is the same whichever others there are.
-fn alone(recipe: Recipe, world: &str) -> Recipe {
-    let mut config = TourConfig::clone(&recipe.config);
-    config.worlds.retain(|other| other.name == world);
-    let Script { mut events, mut changes, .. } = recipe.script;
-    let robots: Vec<&str> = config.robot_names().collect();
-    events.retain(|event| robots.contains(&event.robot.as_str()));
-    changes.retain(|change| change.world == world);
-    Recipe { script: Script::new(events, changes), config: Arc::new(config), ..recipe }
 }

@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use super::approach::Approach;
+use super::simulated_again::recorder;
 use super::{AvoidError, ContactEpisode};
 use crate::recording::{Recorder, RunError};
 use crate::run::{Event, Frame, Recipe, RobotInput, RobotState, Script};
@@ -32,7 +33,7 @@ impl Branches {
         let ticks = earliest..=episode.first + horizon;
         events.retain(|event: &Event| event.robot != episode.robot && ticks.contains(&event.tick));
         let recipe = Recipe { script: Script::new(events, changes), ..recipe };
-        let branch = super::approach::recorder(&recipe, add.as_ref())?.without_keyframes();
+        let branch = recorder(&recipe, add.as_ref())?.without_keyframes();
         Ok(Branches { episode, id, run, frames, branch, ticks: 0 })
     }
 

@@ -1,10 +1,9 @@
 //! `ContactEpisode`, a contact of a robot in a run.
 
 use super::ContactPartner;
-use super::approach::{AddKinds, recorder};
+use super::simulated_again::{AddKinds, recorder, without_sensors};
 use crate::recording::RunError;
 use crate::run::Recipe;
-use crate::tour::TourConfig;
 
 /// A contact episode of a robot: ticks in contact, one after the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -78,13 +77,4 @@ pub fn contact_episodes_with(
         }
     }
     Ok(Some(episodes))
-}
-
-/// The same run without its sensors, which move no robot and take most of its time.
-pub(super) fn without_sensors(recipe: &Recipe) -> Recipe {
-    let mut config = TourConfig { sensor: None, ..TourConfig::clone(&recipe.config) };
-    for robot in config.worlds.iter_mut().flat_map(|world| &mut world.robots) {
-        robot.sensors.clear();
-    }
-    Recipe { config: config.into(), ..recipe.clone() }
 }

@@ -1,11 +1,11 @@
 //! `Explaining`, an explanation under way.
 
-use super::approach::{AddKinds, Approach, recorder};
+use super::approach::Approach;
 use super::branches::Branches;
-use super::episode::without_sensors;
-use super::kept_speed::kept_speed;
 use super::round::round_from;
-use super::search::{Search, SearchState};
+use super::search::{EvasionSearch, SearchState};
+use super::simulated_again::{AddKinds, recorder, without_sensors};
+use super::speed_channel::speed_channel;
 use super::{
     AvoidError, ContactEpisode, Evasion, EvasionMeans, EvasionSet, EvasionSpeeds, Explanation, LastChance, NoEvasion,
     SearchExtent,
@@ -39,7 +39,7 @@ enum Phase {
     /// The run goes up to the contact and to its end.
     Approach(Box<Approach>),
     /// Channels are tried.
-    Drive { branches: Box<Branches>, search: Box<Search> },
+    Drive { branches: Box<Branches>, search: Box<EvasionSearch> },
     /// An arm is told to stay where it is.
     Stay(Box<Branches>, SearchExtent),
     /// A way round is planned.
@@ -191,7 +191,7 @@ impl Explaining {
     ) -> Result<Option<Explanation>, AvoidError> {
         let set = EvasionSet { switches, ..self.set.clone() };
         let (until, ticks) = (branches.episode.first + set.horizon, branches.ticks_back(set.back));
-        self.phase = Phase::Drive { branches, search: Box::new(Search::new(channels, &set, until, ticks)) };
+        self.phase = Phase::Drive { branches, search: Box::new(EvasionSearch::new(channels, &set, until, ticks)) };
         Ok(None)
     }
 
@@ -209,7 +209,7 @@ impl Explaining {
     fn begin_driving(&mut self, mut branches: Box<Branches>) -> Result<Option<Explanation>, AvoidError> {
         let speeds = match &self.set.speeds {
             EvasionSpeeds::Channels(speeds) => speeds.clone(),
-            EvasionSpeeds::Kept => match kept_speed(&mut branches)? {
+            EvasionSpeeds::Kept => match speed_channel(&mut branches)? {
                 Ok(kept) => vec![kept],
                 Err(none) => return self.answered(branches, LastChance::None(none)),
             },

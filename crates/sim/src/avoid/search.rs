@@ -1,4 +1,4 @@
-//! `Search`, which tries all inputs of a set, a branch at a time.
+//! `EvasionSearch`, which tries all inputs of a set, a branch at a time.
 
 use std::collections::VecDeque;
 
@@ -12,7 +12,7 @@ pub(super) type DrivenChannels = Vec<(u64, [i16; 2])>;
 /// A search for channels by which a robot comes through a span of ticks without contact. It begins at the last of its
 /// ticks and goes back; from each the fewest switches come first, then the order of the channels, then the earliest
 /// switch.
-pub(super) struct Search {
+pub(super) struct EvasionSearch {
     /// The channels, in the order in which they are tried.
     channels: Vec<[i16; 2]>,
     /// The greatest number of switches.
@@ -54,12 +54,12 @@ pub(super) enum SearchState {
     Exhausted,
 }
 
-impl Search {
+impl EvasionSearch {
     /// A search among these channels, from these ticks, the last first.
     pub(super) fn new(channels: Vec<[i16; 2]>, set: &EvasionSet, until: u64, ticks: VecDeque<u64>) -> Self {
         let EvasionSet { switches, every, .. } = *set;
         let extent = SearchExtent { earliest: until, ..SearchExtent::default() };
-        Search { channels, switches, every, until, ticks, switching: switches, stack: Vec::new(), extent }
+        EvasionSearch { channels, switches, every, until, ticks, switching: switches, stack: Vec::new(), extent }
     }
 
     /// Tries the next branch.

@@ -33,7 +33,7 @@ impl WhyArgs {
         let script = self.script.as_deref().map(Target::of).transpose()?;
         self.check_robots(&recipe)?;
         interrupt::listen();
-        let asked = Question { recipe: &recipe, set: &set };
+        let asked = ContactSearch { recipe: &recipe, set: &set };
         let outcome = if damage.is_some() { Outcome::Recovered } else { Outcome::Done };
         let Some(episodes) = asked.episodes(|robot| self.wants(robot))? else { return Ok(Outcome::Stopped) };
         let chosen: Vec<&ContactEpisode> = episodes.iter().filter(|episode| self.wants_number(episode)).collect();
@@ -101,12 +101,12 @@ fn capitalized(text: &str) -> String {
 }
 
 /// A run, and the inputs by which its contacts may be avoided.
-struct Question<'a> {
+struct ContactSearch<'a> {
     recipe: &'a Recipe,
     set: &'a EvasionSet,
 }
 
-impl Question<'_> {
+impl ContactSearch<'_> {
     /// The contacts; `None` where somebody asked to stop.
     fn episodes(&self, wants: impl Fn(&str) -> bool) -> Result<Option<Vec<ContactEpisode>>, Failure> {
         let progress = CommandProgress::of(self.recipe.config.ticks, "ticks");

@@ -41,7 +41,7 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
         along_path: false,
         drivable: !kind.starts_with("reach"),
         is_arm: kind.starts_with("reach"),
-        trailer: None,
+        trailer: (kind == "hitch").then_some(true),
         sees: Vec::new(),
         tip: None,
         reversals: 0,
@@ -59,8 +59,7 @@ fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit
 
 fn model() -> Dashboard {
     let pose = Pose2::new(10.5, 6.25, -1.5);
-    let mut hitch = robot("Hitch", "hitch", &HITCH.with_trailer(), HitchCfg { body: pose, trailer: Some(-1.5) });
-    hitch.trailer = Some(true);
+    let hitch = robot("Hitch", "hitch", &HITCH.with_trailer(), HitchCfg { body: pose, trailer: Some(-1.5) });
     Dashboard {
         cockpits: vec![
             cockpit("Apartment", 12.0, 8.0, robot("Rusty", "rusty", &RUSTY, pose)),

@@ -8,6 +8,7 @@ use bevy_egui::egui::{
 };
 
 use super::span::{ShownSpan, TickSpan};
+use super::way_out_sign::way_out_sign;
 use crate::window::ui::{Command, Dashboard, FrameColours, SessionCommand, ShownChance};
 use motion_lab_core::num::exp;
 use motion_lab_core::picture::Role;
@@ -148,7 +149,7 @@ impl TimeLine<'_> {
         show_lanes(ui, model, history.marks(), &lanes, &scale, look, commands);
         if let Some(chance) = chance
             && let Some(lane) = lanes.iter().position(|lane| lane.robot.is_none_or(|id| id == chance.robot))
-            && chance.show(ui, scale.lane(lane, lanes.len()), |tick| scale.x(tick), look)
+            && way_out_sign(ui, chance, scale.lane(lane, lanes.len()), |tick| scale.x(tick), look)
         {
             commands.push(Command::Session(SessionCommand::PlayWayOut));
         }

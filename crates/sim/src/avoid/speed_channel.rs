@@ -7,7 +7,7 @@ use motion_lab_core::configuration::Kinds;
 
 /// The speed channel that the robot had when it met something: the one it was driven by, else the one that gives the
 /// speed it had in the tick before.
-pub(super) fn kept_speed(branches: &mut Branches) -> Result<Result<i16, NoEvasion>, AvoidError> {
+pub(super) fn speed_channel(branches: &mut Branches) -> Result<Result<i16, NoEvasion>, AvoidError> {
     let first = branches.episode.first;
     let driven = branches.frame(first).map(|frame| branches.state(frame)).filter(|state| state.manual);
     if let Some(state) = driven.filter(|state| state.target.is_empty()) {

@@ -1,6 +1,6 @@
 //! Why a contact came about: asked by a key or a button, shown on the time line, its way out played and undone.
 
-use super::*;
+use super::super::*;
 use motion_lab_sim::avoid::{EvasionSet, contact_episodes, explain};
 use motion_lab_sim::run::{Event as RunEvent, Recipe, seconds};
 use motion_lab_sim::simulation::start_run;
