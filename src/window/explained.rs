@@ -27,17 +27,16 @@ fn words(why: &Explanation) -> String {
     let before = |tick: u64| seconds(episode.first - tick);
     let met = format!("{} meets {} at {at:.2} s.", episode.robot, episode.with);
     let stops = match &why.stopping {
-        LastChance::At(stop) if stop.tick == episode.first => "It could stop until then".to_owned(),
-        LastChance::At(stop) => format!("It could stop until {:.2} s before", before(stop.tick)),
-        LastChance::None(_) => "Stopping did not help".to_owned(),
+        LastChance::At(stop) if stop.tick == episode.first => "It could stop until then,".to_owned(),
+        LastChance::At(stop) => format!("It could stop until {:.2} s before,", before(stop.tick)),
+        LastChance::None(_) => "Stopping did not help,".to_owned(),
     };
     let goes_on = match &why.going_on {
         LastChance::At(evasion) if evasion.tick == episode.first => "and go round it until then, too.".to_owned(),
         LastChance::At(evasion) => {
             format!("and steer away until {:.2} s before, not later.", before(evasion.tick))
         }
-        LastChance::None(none) => format!("; on its way: {none}."),
+        LastChance::None(none) => format!("and not go on: {none}."),
     };
-    let joint = if goes_on.starts_with(';') { "" } else { " " };
-    format!("{met} {stops}{joint}{goes_on}")
+    format!("{met} {stops} {goes_on}")
 }

@@ -17,9 +17,10 @@ pub fn lines(why: &Explanation) -> Vec<String> {
 fn stopping(why: &Explanation) -> String {
     match &why.stopping {
         LastChance::At(evasion) if evasion.tick == why.episode.first => {
-            format!("in tick {} itself; it stops within a tick", evasion.tick)
+            let how = if evasion.means == EvasionMeans::Standing { "stays where it is" } else { "stops within a tick" };
+            format!("in tick {} itself; it {how}", evasion.tick)
         }
-        LastChance::At(evasion) => format!("until {}", at(why, evasion)),
+        LastChance::At(evasion) => at(why, evasion),
         LastChance::None(none) => no_way(none),
     }
 }
@@ -28,10 +29,12 @@ fn going_on(why: &Explanation) -> String {
     match &why.going_on {
         LastChance::At(evasion) => {
             let tried = match evasion.means {
-                EvasionMeans::Channels(_) => format!("; later none, of {} tried", branches(evasion.extent.branches)),
+                EvasionMeans::Channels(_) if evasion.tick < why.episode.first => {
+                    format!("; later none, of {} tried", branches(evasion.extent.branches))
+                }
                 _ => String::new(),
             };
-            format!("until {}, {}{tried}", at(why, evasion), means(evasion))
+            format!("{}, {}{tried}", at(why, evasion), means(evasion))
         }
         LastChance::None(none) => no_way(none),
     }
@@ -39,8 +42,11 @@ fn going_on(why: &Explanation) -> String {
 
 /// The last chance, and how long before the contact it is.
 fn at(why: &Explanation, evasion: &Evasion) -> String {
-    let (tick, before) = (evasion.tick, seconds(why.episode.first - evasion.tick));
-    format!("tick {tick} ({before:.2} s before)")
+    let (tick, before) = (evasion.tick, why.episode.first - evasion.tick);
+    if before == 0 {
+        return format!("in tick {tick} itself");
+    }
+    format!("until tick {tick} ({:.2} s before)", seconds(before))
 }
 
 /// By what the robot avoids the contact.
