@@ -136,6 +136,31 @@ lab("a run that is opened with its script and its range sensor is kept whole by 
   assert.equal(refused.notice.text, "tick 72001: at most 72000");
 });
 
+lab("a contact is explained as the program explains it, and its way out is a branch without it", "/", async (lab) => {
+  const [script, log] = [join(shots, "crash.ron"), join(shots, "crash.mcap")];
+  rmSync(log, { force: true });
+  writeFileSync(script, 'Script(version: 1, events: [(tick: 1, robot: "Rusty", input: Drive(128, 0))])');
+  native("record", "--script", script, "--seconds", "4", "-o", log);
+  const expected = JSON.parse(native("why", log, "--robot", "Rusty", "--contact", "1", "--json"));
+  const bytes = readFileSync(log).toString("base64");
+  await lab.page.evaluate((text) => {
+    const file = new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], "crash.mcap");
+    return window.motionLab.open(file);
+  }, bytes);
+  await lab.until((s) => s.frontier === 80 && s.notice?.text.startsWith("crash.mcap"));
+  await lab.send({ do: "seek", tick: expected.tick });
+  await lab.until((s) => s.tick === expected.tick);
+  await lab.send({ do: "why" });
+  const { why } = await lab.until((s) => s.why);
+  assert.deepEqual([why.robot, why.contact, why.last_chance], ["Rusty", expected.tick, expected.going_on.last_chance]);
+  assert.match(why.text, /^Rusty meets the wall between A and B at .* steer away until/);
+  await lab.send({ do: "way_out" });
+  const free = expected.going_on.free_until;
+  const after = await lab.until((s) => s.tick >= free);
+  assert.equal(after.robots.find((r) => r.name === "Rusty").contacts, 0);
+  assert.equal(after.why, null);
+});
+
 lab("a robot is put by a click in the atlas, and refused where it would overlap", "/?widget=atlas", async (lab) => {
   const paper = await lab.find(/^World Apartment/);
   const refusals = [];
