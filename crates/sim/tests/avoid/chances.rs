@@ -167,6 +167,74 @@ fn another_robot_is_named_and_goes_on_as_it_would() {
 }
 
 #[test]
+fn what_others_are_told_meanwhile_they_do_in_every_branch() {
+    // a stands until it is told to drive at b, which comes along slowly
+    let robots: [(&str, &str, &[f64]); 2] =
+        [("a", "rusty", &[0.0, 0.0, 0.0]), ("b", "rusty", &[1.5, 0.0, std::f64::consts::PI])];
+    let events = vec![event(1, "b", RobotInput::Drive(64, 0)), event(30, "a", RobotInput::Drive(128, 0))];
+    let recipe = recipe(field(&robots), 60, events, vec![]);
+    let episode = &contact_episodes(&recipe, |robot| robot == "b").unwrap()[0];
+    assert!((31..50).contains(&episode.first), "{}", episode.first);
+    // a way out that counts on a to stand is none, and the whole run would say so
+    let why = explain(&recipe, episode, &EvasionSet::default()).unwrap();
+    let last = chance(&why.going_on);
+    let mut run = Recorder::of(&Recipe { script: last.script.clone(), ..recipe.clone() }).unwrap();
+    let contacts = |run: &mut Recorder, tick| run.seek(tick).unwrap().robots[1].contacts;
+    assert_eq!(contacts(&mut run, last.free_until), 0);
+}
+
+#[test]
+fn a_car_that_backs_up_keeps_its_speed_backward() {
+    let recipe = Recipe::new(TourConfig { ticks: 200, ..TourConfig::default() }, Seed(2005));
+    let episode = &contact_episodes(&recipe, |robot| robot == "Hitch").unwrap()[0];
+    let mut run = Recorder::of(&recipe).unwrap();
+    let mut at = |tick| run.seek(tick).unwrap().robots[2].configuration.clone();
+    let (a, b) = (at(episode.first - 2), at(episode.first - 1));
+    let speed = ((b[0] - a[0]) * b[2].cos() + (b[1] - a[1]) * b[2].sin()) / 0.05;
+    let why = explain(&recipe, episode, &EvasionSet::default()).unwrap();
+    let EvasionMeans::Channels(channels) = &chance(&why.going_on).means else { panic!() };
+    let kept = f64::from(channels[0].1[0]) / 128.0 * motion_lab_core::robots::HITCH.max_speed;
+    assert!(speed < 0.0 && (kept - speed).abs() < 0.02, "{kept} m/s kept of {speed}");
+}
+
+#[test]
+fn a_way_round_that_the_world_blocks_meanwhile_is_none() {
+    let recipe = Recipe::new(TourConfig { ticks: 400, ..TourConfig::default() }, Seed(2005));
+    let episode = &contact_episodes(&recipe, |robot| robot == "Reach").unwrap()[0];
+    let why = explain(&recipe, episode, &EvasionSet::default()).unwrap();
+    let round = chance(&why.going_on);
+    // a bead is put where the tip will be halfway, when the arm is on its way
+    let EvasionMeans::Path { arrives, .. } = round.means else { panic!("{round:?}") };
+    let halfway = (round.tick + arrives) / 2;
+    let mut run = Recorder::of(&Recipe { script: round.script.clone(), ..recipe.clone() }).unwrap();
+    run.seek(halfway).unwrap();
+    let tip = run.view()[1].tip.unwrap();
+    let bead = WorldChange::Add {
+        name: "bead".into(),
+        points: vec![(quantized(&[tip.x])[0], quantized(&[tip.y])[0])],
+        radius: quantized(&[0.02])[0],
+    };
+    let changes = vec![WorldEvent { tick: halfway - 2, world: "Workbench".into(), change: bead }];
+    let blocked = Recipe { script: Script::new(vec![], changes), ..recipe };
+    let episodes = contact_episodes(&blocked, |robot| robot == "Reach").unwrap();
+    assert_eq!(episodes[0].first, episode.first);
+    let why = explain(&blocked, &episodes[0], &EvasionSet::default()).unwrap();
+    match &why.going_on {
+        LastChance::At(other) => {
+            assert_ne!(other.script.events, round.script.events);
+            let mut run = Recorder::of(&Recipe { script: other.script.clone(), ..blocked }).unwrap();
+            while run.frame().tick < other.free_until {
+                let touches = run.step().robots[1].in_contact;
+                assert!(run.frame().tick < other.tick || !touches, "tick {}", run.frame().tick);
+            }
+        }
+        LastChance::None(why) => {
+            assert_eq!(*why, NoEvasion::NoPath("the world changes while the path is played".into()));
+        }
+    }
+}
+
+#[test]
 fn an_arm_stays_or_goes_round_the_post() {
     let recipe = Recipe::new(TourConfig { ticks: 400, ..TourConfig::default() }, Seed(2005));
     let episodes = contact_episodes(&recipe, |robot| robot == "Reach").unwrap();
@@ -258,7 +326,7 @@ fn a_robot_with_inertia_has_its_braking_distance() {
     });
     let world = field(&[("sled", "sled", &[0.0, 0.0])]);
     let recipe = recipe(world, 200, vec![event(1, "sled", RobotInput::Drive(77, 0))], vec![]);
-    let set = EvasionSet { back: 60, ..EvasionSet::default() };
+    let set = EvasionSet { back: 60, turns: vec![0, 64], switches: 0, ..EvasionSet::default() };
     let episode = contact_episodes_with(&recipe, Some(&add), |_| true, |_| true).unwrap().unwrap()[0].clone();
     let why = Explaining::with_robots(&recipe, ("sled", episode.first), &set, Some(add)).unwrap().finish().unwrap();
     // by hand: 77/128 m/s, less 0.025 m/s in each tick, come to rest within this length
