@@ -30,11 +30,12 @@ Exit codes:
    1  internal error, or an output that could not be written
    2  the command line is wrong
    3  an input file is missing or wrong
-   4  the replay differs from the recording or one log from the other, a graded submission does not pass, or a planner
-      has no path
+   4  the replay differs from the recording or one log from the other, a graded submission does not pass, a planner has
+      no path, or a contact no way out
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
-  75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare` and `shrink` keep what they found
+  75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare`, `shrink` and `why` keep
+      what they found
  130  ended at once by Ctrl-C or a termination signal
 
 Data goes to standard output, messages to standard error.";

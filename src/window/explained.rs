@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use crate::window::ui::{Interface, ShownChance};
-use motion_lab_sim::avoid::{Explanation, LastChance};
+use crate::window::ui::{Interface, ScriptMark, ShownChance};
+use motion_lab_sim::avoid::{Evasion, EvasionMeans, Explanation, LastChance};
 use motion_lab_sim::run::seconds;
-use motion_lab_sim::simulation::RunConfig;
+use motion_lab_sim::simulation::{PendingInput, RunConfig};
 
 /// Keeps what is known of a contact: the time line shows it, and a notice says it.
 pub fn explained(world: &mut World, why: &Explanation) {
@@ -17,7 +17,8 @@ pub fn explained(world: &mut World, why: &Explanation) {
     let text = words(why);
     let first = why.episode.first;
     let config = Arc::clone(config);
-    let chance = ShownChance { robot, contact: first, way_out, text, config, is_asked: false };
+    let script = ScriptMark::of(world.resource::<PendingInput>().script());
+    let chance = ShownChance { robot, contact: first, way_out, text, config, script, is_asked: false };
     world.resource_mut::<Interface>().0.chance = Some(chance);
 }
 
@@ -27,16 +28,22 @@ fn words(why: &Explanation) -> String {
     let before = |tick: u64| seconds(episode.first - tick);
     let met = format!("{} meets {} at {at:.2} s.", episode.robot, episode.with);
     let stops = match &why.stopping {
-        LastChance::At(stop) if stop.tick == episode.first => "It could stop until then,".to_owned(),
-        LastChance::At(stop) => format!("It could stop until {:.2} s before,", before(stop.tick)),
-        LastChance::None(_) => "Stopping did not help,".to_owned(),
+        LastChance::At(stop) if stop.tick == episode.first => "It could stop until then".to_owned(),
+        LastChance::At(stop) => format!("It could stop until {:.2} s before", before(stop.tick)),
+        LastChance::None(_) => "No stop helps".to_owned(),
     };
     let goes_on = match &why.going_on {
-        LastChance::At(evasion) if evasion.tick == episode.first => "and go round it until then, too.".to_owned(),
+        LastChance::At(Evasion { tick, means: EvasionMeans::Path { .. }, .. }) => match before(*tick) {
+            0.0 => "a way round begins then, too".to_owned(),
+            before => format!("a way round begins {before:.2} s before"),
+        },
+        LastChance::At(evasion) if evasion.tick == episode.first => "it could steer away until then, too".to_owned(),
         LastChance::At(evasion) => {
-            format!("and steer away until {:.2} s before, not later.", before(evasion.tick))
+            format!("it could steer away until {:.2} s before, not later", before(evasion.tick))
         }
-        LastChance::None(none) => format!("and not go on: {none}."),
+        LastChance::None(none) => none.to_string(),
     };
-    format!("{met} {stops} {goes_on}")
+    let still = [&why.stopping, &why.going_on].into_iter().filter_map(LastChance::evasion).any(|e| e.is_still_met);
+    let still = if still { " The other one is in contact all the same." } else { "" };
+    format!("{met} {stops}; {goes_on}.{still}")
 }

@@ -305,7 +305,7 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 world.resource_mut::<Interface>().0.say(notice);
             }
             Command::Session(SessionCommand::PlayPath) => play_path(world),
-            Command::Session(SessionCommand::Why) => why::explain(world),
+            Command::Session(SessionCommand::Why) => why::ask(world),
             Command::Session(SessionCommand::PlayWayOut) => why::play_way_out(world),
             #[cfg(feature = "window")]
             Command::Session(command) => super::desktop::carry_out(world, command),

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::background;
-use crate::window::ui::{Interface, Notice};
+use crate::window::ui::{Interface, Notice, ScriptMark};
 use motion_lab_sim::avoid::{AddKinds, EvasionSet, Explaining};
 use motion_lab_sim::run::{Recipe, seconds};
 use motion_lab_sim::simulation::{
-    Happening, History, Playback, RobotKinds, RunConfig, TickMark, Transport, recipe, take_script,
+    Happening, History, PendingInput, Playback, RobotKinds, RunConfig, TickMark, Transport, recipe, take_script,
 };
 use motion_lab_sim::tour::TourConfig;
 
@@ -19,6 +19,18 @@ pub fn contact_at(history: &History, tick: u64) -> Option<TickMark> {
     let (before, after) = marks.split_at(marks.partition_point(|mark| mark.tick <= tick));
     let is_contact = |mark: &&TickMark| mark.what == Happening::Contact;
     before.iter().rev().find(is_contact).or_else(|| after.iter().find(is_contact)).copied()
+}
+
+/// Plays the way out of the contact at the present tick, where that was explained; else begins to explain it.
+pub fn ask(world: &mut World) {
+    let tick = world.resource::<Transport>().tick();
+    let here = contact_at(world.resource::<History>(), tick).map(|mark| (mark.robot, mark.tick));
+    let known = world.resource::<Interface>().0.chance.as_ref().filter(|chance| chance.way_out.is_some());
+    if known.is_some_and(|chance| Some((chance.robot, chance.contact)) == here) {
+        play_way_out(world);
+    } else {
+        explain(world);
+    }
 }
 
 /// Begins to explain the contact at the present tick, in the background.
@@ -61,6 +73,7 @@ pub fn play_way_out(world: &mut World) {
 pub fn forget_if_other(world: &mut World) {
     let Some(chance) = &world.resource::<Interface>().0.chance else { return };
     let is_there = Arc::ptr_eq(&chance.config, world.resource::<RunConfig>().config())
+        && chance.script == ScriptMark::of(world.resource::<PendingInput>().script())
         && world
             .resource::<History>()
             .marks()

@@ -51,7 +51,7 @@ pub(crate) enum SessionCommand {
     ThreeRobots,
     /// A new run in which a robot plays the plan's path.
     PlayPath,
-    /// Explain the contact at the present tick.
+    /// Explain the contact at the present tick; once that is done, play its way out.
     Why,
     /// Play the way out of the contact that was explained.
     PlayWayOut,

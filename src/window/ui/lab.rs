@@ -136,7 +136,7 @@ fn carry_out(action: Action, model: &Dashboard, state: &mut UiState, commands: &
     let is_dashboard = state.widget == Widget::Dashboard;
     match action {
         Action::Time(action) => match state.widget {
-            Widget::Dashboard => transport_bar::act(action, model, state.chance.as_ref(), commands),
+            Widget::Dashboard => transport_bar::act(action, model, commands),
             Widget::Plan => plan::controls::act(action, &mut state.plan),
             // nothing there moves through time
             Widget::Anatomy | Widget::Cspace | Widget::Atlas => {}

@@ -48,4 +48,4 @@ pub(crate) use plan::PlanState;
 pub(crate) use recent::Recent;
 pub(crate) use settings::Settings;
 pub(crate) use state::{Closing, Grasp, Interface, Notice, Offer, SeedDraft, UiState, Working};
-pub(crate) use time::chance::ShownChance;
+pub(crate) use time::chance::{ScriptMark, ShownChance};

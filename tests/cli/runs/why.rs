@@ -86,8 +86,17 @@ fn what_cannot_be_asked_is_refused_and_a_run_without_contacts_is_said() {
     assert!(refused(&["-o", "way.mcap"], 2).contains("-o and --script are for one"));
     let too_late = ["--robot", "Hitch", "--speeds", "128", "--turns", "0", "--back", "0.5", "-o", "way.mcap"];
     let said = run_in(at, &[&["why", "run.mcap"], &too_late[..8]].concat()).done();
-    assert!(said.contains("by going on: too late from tick 74 on, of 22 branches tried"), "{said}");
-    assert!(!at.join("way.mcap").exists());
+    assert!(
+        said.contains("by going on: too late from tick 74 on, of 11 branches tried; --back looks farther back"),
+        "{said}"
+    );
+    let none = run_in(at, &[&["why", "run.mcap"], &too_late[..]].concat());
+    assert!(none.code == Some(4) && none.err.contains("there is no way out") && !at.join("way.mcap").exists());
+    let further = ["--robot", "Hitch", "--speeds", "128", "--turns=-1,0,-1", "--switches", "0", "--back", "30"];
+    let said = run_in(at, &[&["why", "run.mcap"], &further[..]].concat()).done();
+    assert!(said.contains("too late from tick 1 on, of 168 branches tried; the run begins there"), "{said}");
+    let crossed = run_in(at, &["why", "run.mcap", "--robot", "Hitch", "--turns", "-64,64", "--switches", "0"]).done();
+    assert!(crossed.contains("by going on: "), "a list may begin with a minus sign");
     assert!(run_in(at, &["why", "none.mcap"]).failed(3).contains("none.mcap"));
     let quiet = run_in(at, &["record", "--world", "lot", "--ticks", "20", "-o", "quiet.mcap"]);
     quiet.done();

@@ -7,8 +7,8 @@ use super::search::{EvasionSearch, SearchState};
 use super::simulated_again::{AddKinds, recorder, without_sensors};
 use super::speed_channel::speed_channel;
 use super::{
-    AvoidError, ContactEpisode, Evasion, EvasionMeans, EvasionSet, EvasionSpeeds, Explanation, LastChance, NoEvasion,
-    SearchExtent,
+    AvoidError, ContactEpisode, ContactPartner, Evasion, EvasionMeans, EvasionSet, EvasionSpeeds, Explanation,
+    LastChance, NoEvasion, SearchExtent,
 };
 use crate::recording::Recorder;
 use crate::run::{Event, Quantized, Recipe, RobotInput, Script};
@@ -146,12 +146,19 @@ impl Explaining {
             }
             Phase::Stay(branches, extent) => self.stay(branches, extent),
             Phase::Round(branches, tries) => self.round(branches, tries),
-            Phase::Confirm { branches, mut run, evasion, then } => {
+            Phase::Confirm { branches, mut run, mut evasion, then } => {
                 self.ticks += 1;
                 let frame = run.step();
-                let id = self.recipe.config.robot_names().position(|name| name == branches.episode.robot);
-                let touches = id.and_then(|id| frame.robots.get(id)).is_none_or(|robot| robot.in_contact);
+                let state = |robot: &str| {
+                    let id = self.recipe.config.robot_names().position(|name| name == robot);
+                    id.and_then(|id| frame.robots.get(id))
+                };
+                let touches = state(&branches.episode.robot).is_none_or(|robot| robot.in_contact);
                 let tick = frame.tick;
+                if let ContactPartner::Robot(other) = &branches.episode.with {
+                    let meets = state(other).is_some_and(|other| other.in_contact);
+                    evasion.is_still_met |= tick >= evasion.tick && meets;
+                }
                 if tick >= evasion.tick && touches {
                     return self.unconfirmed(branches, evasion, then);
                 }
@@ -215,7 +222,12 @@ impl Explaining {
             },
         };
         let turns = || self.set.turns.iter().copied();
-        let channels = speeds.iter().flat_map(|&a| turns().map(move |b| [a, b])).collect();
+        let mut channels: Vec<[i16; 2]> = Vec::new();
+        for pair in speeds.iter().flat_map(|&a| turns().map(move |b| [a, b])) {
+            if !channels.contains(&pair) {
+                channels.push(pair);
+            }
+        }
         self.drive(branches, channels, self.set.switches)
     }
 
@@ -224,7 +236,7 @@ impl Explaining {
         let inputs = channels.iter().map(|&(tick, [a, b])| (tick, RobotInput::Drive(a, b)));
         let script = self.script(episode, extent.earliest, inputs);
         let (tick, free_until) = (extent.earliest, episode.first + self.set.horizon);
-        Evasion { tick, free_until, means: EvasionMeans::Channels(channels), script, extent }
+        Evasion { tick, free_until, means: EvasionMeans::Channels(channels), script, extent, is_still_met: false }
     }
 
     /// Lets an arm stay where it is from the next tick before.
@@ -250,7 +262,8 @@ impl Explaining {
             return Ok(None);
         }
         let script = self.script(&branches.episode, tick, [(tick, input)]);
-        let evasion = Evasion { tick, free_until: until, means: EvasionMeans::Standing, script, extent };
+        let means = EvasionMeans::Standing;
+        let evasion = Evasion { tick, free_until: until, means, script, extent, is_still_met: false };
         self.confirm(branches, evasion, Confirmed::Surely)
     }
 
@@ -272,8 +285,13 @@ impl Explaining {
             Ok((inputs, means, arrives)) => {
                 let script = self.script(&branches.episode, tick, inputs);
                 let free_until = std::cmp::max(arrives, branches.episode.first) + self.set.horizon;
-                let evasion = Evasion { tick, free_until, means, script, extent: tries.extent };
+                let extent = tries.extent;
+                let evasion = Evasion { tick, free_until, means, script, extent, is_still_met: false };
                 self.confirm(branches, evasion, Confirmed::Else(tries))
+            }
+            // no earlier tick changes these
+            Err(why @ (NoEvasion::EndsInContact | NoEvasion::Company(_))) => {
+                self.answered(branches, LastChance::None(why))
             }
             Err(why) => {
                 self.phase = Phase::Round(branches, RoundTries { why, ..tries });

@@ -20,7 +20,8 @@ pub struct Explanation {
 /// The last tick at which a contact can be avoided.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LastChance {
-    /// There is one: from the next tick up to the contact's it is too late, by no input of the set.
+    /// There is one. From the next tick up to the contact's it is too late: by no input of the set; of an arm's way
+    /// round, by no path that the planner finds.
     At(Evasion),
     /// There is none.
     None(NoEvasion),
@@ -50,6 +51,9 @@ pub struct Evasion {
     pub script: Script,
     /// What it took to know that nothing later will do.
     pub extent: SearchExtent,
+    /// Whether the other robot that it would meet is in contact from then on up to there, with whatever: a contact
+    /// counts for whoever moves, so that one that drives on may still meet this one, which stands.
+    pub is_still_met: bool,
 }
 
 /// By what a robot avoids a contact.
@@ -85,7 +89,7 @@ pub enum NoEvasion {
     #[error("it takes no inputs by which it could avoid anything")]
     NoInputs,
     /// The run ends in contact, so that an arm's path has no end.
-    #[error("the run ends in contact, so there is no place beyond it to go to")]
+    #[error("the run ends in contact, so it is not known where it would leave it")]
     EndsInContact,
     /// Others live in the arm's world, and a path knows nothing of them.
     #[error("{0} lives in its world too, and a path knows nothing of it")]

@@ -13,7 +13,7 @@ use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::{Resident, World};
 
 /// The greatest number of iterations of the planner from a tick.
-const ITERATIONS: u64 = 20_000;
+const ITERATIONS: u64 = 5_000;
 
 /// The inputs of a way round with their ticks, by what it is taken, and its last tick.
 pub(super) type WayRound = (Vec<(u64, RobotInput)>, EvasionMeans, u64);

@@ -1,4 +1,4 @@
-//! `EvasionSearch`, which tries all inputs of a set, a branch at a time.
+//! `EvasionSearch`, which tries all inputs of a set, some ticks of a branch at a time.
 
 use std::collections::VecDeque;
 
@@ -8,6 +8,9 @@ use crate::run::{Frame, RobotInput};
 
 /// Channels, each from its tick on.
 pub(super) type DrivenChannels = Vec<(u64, [i16; 2])>;
+
+/// The number of ticks of a branch that are run at once.
+const TICKS_AT_ONCE: u32 = 8;
 
 /// A search for channels by which a robot comes through a span of ticks without contact. It begins at the last of its
 /// ticks and goes back; from each the fewest switches come first, then the order of the channels, then the earliest
@@ -27,6 +30,8 @@ pub(super) struct EvasionSearch {
     switching: u32,
     /// The branches under way, each one switch longer than the one before.
     stack: Vec<Prefix>,
+    /// The frames after which the channels that are driven now may change; `None` between two branches.
+    driven: Option<VecDeque<Frame>>,
     pub(super) extent: SearchExtent,
 }
 
@@ -59,16 +64,56 @@ impl EvasionSearch {
     pub(super) fn new(channels: Vec<[i16; 2]>, set: &EvasionSet, until: u64, ticks: VecDeque<u64>) -> Self {
         let EvasionSet { switches, every, .. } = *set;
         let extent = SearchExtent { earliest: until, ..SearchExtent::default() };
-        EvasionSearch { channels, switches, every, until, ticks, switching: switches, stack: Vec::new(), extent }
+        EvasionSearch {
+            channels,
+            switches,
+            every,
+            until,
+            ticks,
+            switching: switches,
+            stack: Vec::new(),
+            driven: None,
+            extent,
+        }
     }
 
-    /// Tries the next branch.
+    /// Goes on with the branch under way for some ticks, or begins the next.
     pub(super) fn step(&mut self, branches: &mut Branches) -> Result<SearchState, AvoidError> {
+        match self.driven.take() {
+            Some(places) => Ok(self.drive(branches, places)),
+            None if self.next_branch(branches)? => Ok(SearchState::Open),
+            None => Ok(SearchState::Exhausted),
+        }
+    }
+
+    /// Drives by constant channels for some ticks.
+    fn drive(&mut self, branches: &mut Branches, mut places: VecDeque<Frame>) -> SearchState {
+        let may_switch = self.stack.len() as u32 <= self.switching;
+        let Some(prefix) = self.stack.last_mut() else { return SearchState::Open };
+        for _ in 0..TICKS_AT_ONCE {
+            let (frame, robot) = branches.step();
+            if robot.in_contact {
+                prefix.places = places;
+                return SearchState::Open;
+            }
+            if frame.tick >= self.until {
+                return SearchState::Found(std::mem::take(&mut prefix.tried));
+            }
+            if may_switch && (frame.tick + 1 - self.extent.earliest).is_multiple_of(self.every) {
+                places.push_back(frame.clone());
+            }
+        }
+        self.driven = Some(places);
+        SearchState::Open
+    }
+
+    /// Begins the next branch. Returns whether there is one.
+    fn next_branch(&mut self, branches: &mut Branches) -> Result<bool, AvoidError> {
         loop {
             let depth = self.stack.len() as u32;
             let Some(prefix) = self.stack.last_mut() else {
                 if !self.begin(branches) {
-                    return Ok(SearchState::Exhausted);
+                    return Ok(false);
                 }
                 continue;
             };
@@ -87,16 +132,13 @@ impl EvasionSearch {
             }
             prefix.tried = prefix.before.clone();
             prefix.tried.push((prefix.frame.tick + 1, channels));
-            self.extent.branches += 1;
-            let places = (depth <= self.switching).then_some((self.extent.earliest, self.every));
-            let (frame, until) = (prefix.frame.clone(), self.until);
-            return match drive(branches, &frame, channels, until, places)? {
-                None => Ok(SearchState::Found(std::mem::take(&mut prefix.tried))),
-                Some(places) => {
-                    prefix.places = places;
-                    Ok(SearchState::Open)
-                }
-            };
+            // a shorter branch was counted when fewer switches were tried
+            self.extent.branches += u64::from(depth == self.switching + 1);
+            let [a, b] = channels;
+            branches.begin(&prefix.frame)?;
+            branches.input(RobotInput::Drive(a, b));
+            self.driven = Some(VecDeque::new());
+            return Ok(true);
         }
     }
 
@@ -117,31 +159,5 @@ impl EvasionSearch {
 impl Prefix {
     fn new(before: DrivenChannels, frame: Frame) -> Self {
         Prefix { before, frame, next: 0, tried: Vec::new(), places: VecDeque::new() }
-    }
-}
-
-/// Drives by constant channels after a frame. `None` where the robot comes through; else the frames before the contact
-/// after which the channels may change: those `every` ticks from the first tick of the branch.
-fn drive(
-    branches: &mut Branches,
-    start: &Frame,
-    [a, b]: [i16; 2],
-    until: u64,
-    places: Option<(u64, u64)>,
-) -> Result<Option<VecDeque<Frame>>, AvoidError> {
-    branches.begin(start)?;
-    branches.input(RobotInput::Drive(a, b));
-    let mut kept = VecDeque::new();
-    loop {
-        let (frame, robot) = branches.step();
-        if robot.in_contact {
-            return Ok(Some(kept));
-        }
-        if frame.tick >= until {
-            return Ok(None);
-        }
-        if places.is_some_and(|(first, every)| (frame.tick + 1 - first).is_multiple_of(every)) {
-            kept.push_back(frame.clone());
-        }
     }
 }

@@ -55,6 +55,7 @@ fn a_rover_steers_away_while_its_circle_fits_and_stops_in_the_last_tick() {
 
     let why = explain(&recipe, episode, &EvasionSet::default()).unwrap();
     assert_eq!(chance(&why.stopping).tick, episode.first);
+    assert!(!chance(&why.stopping).is_still_met);
     assert_eq!(chance(&why.stopping).means, EvasionMeans::Channels(vec![(episode.first, [0, 0])]));
     // the fastest turn is a circle of v / omega = 0.6 / 2.5 = 0.24 m: so far ahead it comes
     let last = chance(&why.going_on);
@@ -159,6 +160,7 @@ fn another_robot_is_named_and_goes_on_as_it_would() {
     let why = explain(&recipe, &episodes[0], &EvasionSet::default()).unwrap();
     let stop = chance(&why.stopping);
     assert_eq!(stop.tick, episodes[0].first, "whoever stands meets nobody");
+    assert!(stop.is_still_met, "and the other one drives into it");
     let last = chance(&why.going_on);
     // a still drives: its own events are in the script of the way out
     assert!(last.script.events.iter().any(|event| event.robot == "a"));
@@ -195,6 +197,25 @@ fn a_car_that_backs_up_keeps_its_speed_backward() {
     let EvasionMeans::Channels(channels) = &chance(&why.going_on).means else { panic!() };
     let kept = f64::from(channels[0].1[0]) / 128.0 * motion_lab_core::robots::HITCH.max_speed;
     assert!(speed < 0.0 && (kept - speed).abs() < 0.02, "{kept} m/s kept of {speed}");
+}
+
+#[test]
+fn a_speed_is_measured_right_where_the_greatest_would_hit_too() {
+    // the tour drives at half its speed, and so near to a curb a tick at full speed is cut short
+    let mut forward = 0;
+    for seed in 1..9 {
+        let config = TourConfig { worlds: vec![World::lot()], ticks: 600, sensor: None };
+        let recipe = Recipe::new(config, Seed(seed));
+        for episode in contact_episodes(&recipe, |_| true).unwrap() {
+            let why =
+                explain(&recipe, &episode, &EvasionSet { back: 4, switches: 0, ..EvasionSet::default() }).unwrap();
+            let LastChance::At(evasion) = &why.going_on else { continue };
+            let EvasionMeans::Channels(channels) = &evasion.means else { panic!() };
+            assert_eq!(channels[0].1[0].abs(), 64, "seed {seed}, {episode:?}");
+            forward += u32::from(channels[0].1[0] > 0);
+        }
+    }
+    assert!(forward >= 2, "{forward} forward");
 }
 
 #[test]

@@ -19,8 +19,8 @@ use crate::cli::support::choices::RobotNames;
 ///   each tick, from the contact's back. "Too late" is exact over this set and nothing else: channels that stay the
 ///   same but for --switches, at multiples of --every. An arm goes round to where it leaves the contact, by a planner.
 ///
-/// A way out has been simulated in the whole run, and has no contact of the robot until --horizon after the one it
-/// avoids.
+/// A way out has been simulated in the whole run, and has no contact of the robot until --horizon after the beginning of
+/// the one it avoids. Another robot may still drive into one that stands, and is said to.
 #[derive(Debug, Args)]
 #[command(
     verbatim_doc_comment,
@@ -40,10 +40,16 @@ pub struct WhyArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) contact: Option<u32>,
     /// The speed channels to be tried, -128 to 128, joined by commas. [default: the speed that the robot had]
-    #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
+    #[arg(long, value_name = "CHANNELS", value_delimiter = ',', allow_hyphen_values = true)]
     pub(super) speeds: Vec<i16>,
     /// The values of the second channel to be tried: the turn rate or the steering angle.
-    #[arg(long, value_name = "CHANNELS", value_delimiter = ',', default_value = "0,32,-32,64,-64,96,-96,128,-128")]
+    #[arg(
+        long,
+        value_name = "CHANNELS",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        default_value = "0,32,-32,64,-64,96,-96,128,-128"
+    )]
     pub(super) turns: Vec<i16>,
     /// How often the channels may change.
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -51,13 +57,15 @@ pub struct WhyArgs {
     /// The time between changes, seconds: they change at its multiples after the first input.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.25)]
     pub(super) every: f64,
-    /// How long after the contact the robot must be free of any, seconds.
+    /// How long the robot must be free of any contact, from the first tick of the one it avoids on, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 2.0)]
     pub(super) horizon: f64,
-    /// How long before the contact a way out is sought, seconds.
+    /// How long before the contact a way out is sought, seconds: at most up to the end of the contact before, and an
+    /// arm's way round from 20 ticks.
     #[arg(long, value_name = "SECONDS", default_value_t = 5.0)]
     pub(super) back: f64,
-    /// Write the run with the way out, of one contact, as a log: by going on where there is one, else by stopping.
+    /// Write the run with the way out, of one contact, as a log: by going on where there is one, else by stopping. It
+    /// ends where the way out is known to be free.
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
     /// Write its script.
@@ -99,10 +107,10 @@ impl WhyArgs {
 /// A time in ticks.
 fn ticks(option: &str, seconds: f64) -> Result<u64, Failure> {
     let ticks = (seconds / DT).round();
-    let is_whole = (ticks * DT - seconds).abs() < 1e-9;
-    if is_whole && (0.0..1e9).contains(&ticks) {
-        return Ok(ticks as u64);
-    }
-    let reason = format!("{option} {seconds}: not a whole number of ticks of {DT} s");
+    let reason = match () {
+        () if !(0.0..1e9).contains(&ticks) => format!("{option} {seconds}: it is out of range"),
+        () if (ticks * DT - seconds).abs() < 1e-9 => return Ok(ticks as u64),
+        () => format!("{option} {seconds}: not a whole number of ticks of {DT} s"),
+    };
     Err(Failure::usage(reason, format!("Write {option} 0.5, for one.")))
 }

@@ -50,18 +50,26 @@ impl WhyArgs {
                 "Name it: --robot NAME --contact N.",
             ));
         }
-        let mut way_out = None;
-        for episode in chosen {
-            let Some(why) = asked.explain(episode)? else { return Ok(Outcome::Stopped) };
+        let (mut way_out, count) = (None, chosen.len());
+        let progress = CommandProgress::of(count as u64, "contacts");
+        for (done, episode) in chosen.into_iter().enumerate() {
+            let Some(why) = asked.explain(episode)? else {
+                say(format!("stopped after {done} of {count} contacts"));
+                return Ok(Outcome::Stopped);
+            };
+            progress.step();
             if self.json {
                 data.json(&report::ContactReport::of(&why))?;
             } else {
-                words::lines(&why).into_iter().try_for_each(|line| data.line(line))?;
+                words::lines(&why, &set).into_iter().try_for_each(|line| data.line(line))?;
             }
             way_out = why.going_on.evasion().or_else(|| why.stopping.evasion()).cloned();
         }
-        write(&recipe, way_out, log_target, script, data)?;
-        Ok(outcome)
+        drop(progress);
+        match write(&recipe, way_out, log_target, script, data)? {
+            Outcome::Done => Ok(outcome),
+            other => Ok(other),
+        }
     }
 
     /// Refuses a robot that the run does not have.
@@ -72,10 +80,8 @@ impl WhyArgs {
             return Ok(());
         }
         let meant = did_you_mean(name, there.iter().copied());
-        Err(Failure::usage(
-            format!("--robot {name}: no such robot is in this run"),
-            format!("{meant}It has {}.", there.join(", ")),
-        ))
+        let have = if there.is_empty() { "none".to_owned() } else { there.join(", ") };
+        Err(Failure::usage(format!("--robot {name}: no such robot is in this run"), format!("{meant}It has {have}.")))
     }
 
     fn none_of(&self, episodes: &[ContactEpisode]) -> Failure {
@@ -119,35 +125,31 @@ impl ContactSearch<'_> {
 
     /// What is known of a contact; `None` where somebody asked to stop.
     fn explain(&self, episode: &ContactEpisode) -> Result<Option<Explanation>, Failure> {
-        let progress = CommandProgress::uncounted("ticks simulated");
         let mut work =
             Explaining::new(self.recipe, (&episode.robot, episode.first), self.set).map_err(Failure::internal)?;
         while !interrupt::asked_to_stop() {
             if let Some(explanation) = work.step().map_err(Failure::internal)? {
                 return Ok(Some(explanation));
             }
-            progress.at(work.ticks());
         }
         Ok(None)
     }
 }
 
-/// Writes the way out as a log and as a script.
+/// Writes the way out as a log and as a script. Says where there is none.
 fn write(
     recipe: &Recipe,
     way_out: Option<Evasion>,
     log: Option<Target>,
     script: Option<Target>,
     data: &mut Data,
-) -> Result<(), Failure> {
+) -> Result<Outcome, Failure> {
     if log.is_none() && script.is_none() {
-        return Ok(());
+        return Ok(Outcome::Done);
     }
     let Some(Evasion { script: inputs, free_until, .. }) = way_out else {
-        return Err(Failure::usage(
-            "there is no way out, so -o and --script have nothing to write",
-            "Name more inputs: --speeds, --turns, --switches, --back.",
-        ));
+        say("there is no way out, so -o and --script have nothing to write");
+        return Ok(Outcome::NoPath);
     };
     if let Some(target) = script {
         write_file(&target, inputs.to_ron().as_bytes())?;
@@ -156,9 +158,15 @@ fn write(
     if let Some(target) = log {
         let config = TourConfig { ticks: free_until, ..TourConfig::clone(&recipe.config) };
         let run = Recipe { config: config.into(), script: inputs, ..recipe.clone() };
-        if let Ended::Whole { .. } = write_run(&run, LogKind::Frames, None, StopRule::default(), &target)? {
-            target.wrote();
+        match write_run(&run, LogKind::Frames, None, StopRule::default(), &target)? {
+            Ended::Whole { .. } => target.wrote(),
+            Ended::Stopped(tick) => {
+                say(format!("stopped at tick {tick} of {free_until}: the way out is not whole"));
+                return Ok(Outcome::Stopped);
+            }
+            // it is compared with nothing
+            Ended::Differs(_) => {}
         }
     }
-    Ok(())
+    Ok(Outcome::Done)
 }

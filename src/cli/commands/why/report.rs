@@ -27,6 +27,9 @@ struct ChanceReport<'a> {
     /// Null where there is none.
     last_chance: Option<u64>,
     free_until: Option<u64>,
+    /// Whether the robot that it would meet is in contact up to there all the same; left out where it is not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    still_met: Option<bool>,
     /// Channels, each from its tick on; null for an arm.
     #[serde(skip_serializing_if = "Option::is_none")]
     channels: Option<&'a [(u64, [i16; 2])]>,
@@ -68,7 +71,7 @@ impl<'a> ChanceReport<'a> {
             ..ChanceReport::default()
         };
         match chance {
-            LastChance::At(Evasion { tick, free_until, means, extent, .. }) => {
+            LastChance::At(Evasion { tick, free_until, means, extent, is_still_met, .. }) => {
                 let (mut channels, mut path_rad, mut arrives) = (None, None, None);
                 match means {
                     EvasionMeans::Channels(driven) => channels = Some(&driven[..]),
@@ -78,7 +81,8 @@ impl<'a> ChanceReport<'a> {
                     EvasionMeans::Standing => {}
                 }
                 let (last_chance, free_until) = (Some(*tick), Some(*free_until));
-                ChanceReport { last_chance, free_until, channels, path_rad, arrives, ..searched(*extent) }
+                let still_met = is_still_met.then_some(true);
+                ChanceReport { last_chance, free_until, still_met, channels, path_rad, arrives, ..searched(*extent) }
             }
             LastChance::None(none) => {
                 let extent = if let NoEvasion::TooLate(extent) = none { Some(*extent) } else { None };

@@ -1,31 +1,31 @@
 //! What is known of a contact, in words.
 
-use motion_lab::avoid::{Evasion, EvasionMeans, Explanation, LastChance, NoEvasion};
+use motion_lab::avoid::{ContactPartner, Evasion, EvasionMeans, EvasionSet, Explanation, LastChance, NoEvasion};
 use motion_lab::run::seconds;
 
-/// The lines of a contact.
-pub fn lines(why: &Explanation) -> Vec<String> {
+/// The lines of a contact that was explained by this set.
+pub fn lines(why: &Explanation, set: &EvasionSet) -> Vec<String> {
     let episode = &why.episode;
     let (first, time) = (episode.first, seconds(episode.first));
     let head = format!(
         "{}, contact {}: meets {} at tick {first} ({time:.2} s) in {}",
         episode.robot, episode.number, episode.with, episode.world
     );
-    vec![head, format!("  by stopping: {}", stopping(why)), format!("  by going on: {}", going_on(why))]
+    vec![head, format!("  by stopping: {}", stopping(why, set)), format!("  by going on: {}", going_on(why, set))]
 }
 
-fn stopping(why: &Explanation) -> String {
+fn stopping(why: &Explanation, set: &EvasionSet) -> String {
     match &why.stopping {
         LastChance::At(evasion) if evasion.tick == why.episode.first => {
             let how = if evasion.means == EvasionMeans::Standing { "stays where it is" } else { "stops within a tick" };
-            format!("in tick {} itself; it {how}", evasion.tick)
+            format!("in tick {} itself; it {how}{}", evasion.tick, other(why, evasion))
         }
-        LastChance::At(evasion) => at(why, evasion),
-        LastChance::None(none) => no_way(none),
+        LastChance::At(evasion) => format!("{}{}", at(why, evasion), other(why, evasion)),
+        LastChance::None(none) => no_way(why, none, set),
     }
 }
 
-fn going_on(why: &Explanation) -> String {
+fn going_on(why: &Explanation, set: &EvasionSet) -> String {
     match &why.going_on {
         LastChance::At(evasion) => {
             let tried = match evasion.means {
@@ -34,9 +34,17 @@ fn going_on(why: &Explanation) -> String {
                 }
                 _ => String::new(),
             };
-            format!("{}, {}{tried}", at(why, evasion), means(evasion))
+            format!("{}, {}{tried}{}", at(why, evasion), means(evasion), other(why, evasion))
         }
-        LastChance::None(none) => no_way(none),
+        LastChance::None(none) => no_way(why, none, set),
+    }
+}
+
+/// That the robot it would meet touches something all the same.
+fn other(why: &Explanation, evasion: &Evasion) -> String {
+    match &why.episode.with {
+        ContactPartner::Robot(name) if evasion.is_still_met => format!("; {name} is in contact all the same"),
+        _ => String::new(),
     }
 }
 
@@ -65,12 +73,12 @@ fn branches(count: u64) -> String {
     if count == 1 { "1 branch".into() } else { format!("{count} branches") }
 }
 
-fn no_way(none: &NoEvasion) -> String {
-    match none {
-        NoEvasion::TooLate(extent) => {
-            let tried = branches(extent.branches);
-            format!("too late from tick {} on, of {tried} tried; --back looks farther back", extent.earliest)
-        }
-        other => other.to_string(),
-    }
+fn no_way(why: &Explanation, none: &NoEvasion, set: &EvasionSet) -> String {
+    let NoEvasion::TooLate(extent) = none else { return none.to_string() };
+    let further = match extent.earliest {
+        tick if why.episode.first - tick == set.back => "--back looks farther back",
+        1 => "the run begins there",
+        _ => "the contact before ends there",
+    };
+    format!("too late from tick {} on, of {} tried; {further}", extent.earliest, branches(extent.branches))
 }

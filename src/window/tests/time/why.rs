@@ -77,6 +77,36 @@ fn a_contact_is_explained_and_its_way_out_is_a_branch_that_undo_takes_back() {
 }
 
 #[test]
+fn a_chance_is_for_its_own_contact_and_its_own_inputs() {
+    let (mut harness, first, _) = crashed(WIDE);
+    harness.key_press(Key::W);
+    harness.run_steps(2);
+    wait(&mut harness);
+    assert_eq!(interface(&harness).chance.as_ref().map(|chance| chance.contact), Some(first));
+    // at another contact the key asks about that one
+    let marks = harness.state().app.world().resource::<History>().marks().to_vec();
+    let other = marks.iter().find(|mark| mark.robot == 1).expect("the arm has met the post").tick;
+    assert!(other < first);
+    let seek = motion_lab_sim::simulation::TransportCommand::Seek(other);
+    harness.state_mut().app.world_mut().write_message(RunCommand::from(seek));
+    harness.run_steps(3);
+    harness.key_press(Key::W);
+    harness.run_steps(2);
+    wait(&mut harness);
+    assert_eq!(interface(&harness).chance.as_ref().map(|chance| chance.contact), Some(other));
+    // an input that leaves the contact as it was makes it another run
+    let end = harness.state().transport().frontier;
+    let seek = motion_lab_sim::simulation::TransportCommand::Seek(end);
+    harness.state_mut().app.world_mut().write_message(RunCommand::from(seek));
+    harness.run_steps(3);
+    assert!(interface(&harness).chance.is_some());
+    let drive = motion_lab_sim::simulation::RobotCommand { robot: "Hitch".into(), input: RobotInput::Drive(9, 0) };
+    harness.state_mut().app.world_mut().write_message(RunCommand::from(drive));
+    harness.run_steps(3);
+    assert!(interface(&harness).chance.is_none());
+}
+
+#[test]
 fn what_is_known_of_a_contact_goes_with_its_run_and_can_be_put_away() {
     let (mut harness, ..) = crashed(PHONE);
     harness.get_by_label("More").click();

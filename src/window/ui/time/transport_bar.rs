@@ -11,7 +11,7 @@ use crate::window::ui::paint::button::{LabButton, SIGN, sign_width};
 use crate::window::ui::paint::fold::form;
 use crate::window::ui::paint::icon::Icon;
 use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
-use crate::window::ui::{Command, Dashboard, FrameColours, SeedDraft, SessionCommand, ShownChance, UiState};
+use crate::window::ui::{Command, Dashboard, FrameColours, SeedDraft, SessionCommand, UiState};
 use motion_lab_core::picture::Role;
 use motion_lab_core::random::Seed;
 use motion_lab_sim::run::DT;
@@ -37,10 +37,9 @@ const SPEEDS: [(f64, &str); 11] = [
 ];
 
 /// Carries out an action that moves the run.
-pub fn act(action: TimeAction, model: &Dashboard, chance: Option<&ShownChance>, commands: &mut Vec<Command>) {
+pub fn act(action: TimeAction, model: &Dashboard, commands: &mut Vec<Command>) {
     if action == TimeAction::Why {
-        let way_out = chance.is_some_and(|chance| chance.way_out.is_some());
-        commands.push(Command::Session(if way_out { SessionCommand::PlayWayOut } else { SessionCommand::Why }));
+        commands.push(Command::Session(SessionCommand::Why));
         return;
     }
     let at = SPEEDS.iter().position(|(speed, _)| *speed == model.speed);
@@ -204,7 +203,7 @@ fn button(
         _ => shown,
     };
     if shown.show(ui, look).on_hover_text(hint(action)).clicked() {
-        act(action, model, None, commands);
+        act(action, model, commands);
     }
 }
 
