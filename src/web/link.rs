@@ -125,7 +125,7 @@ pub enum LinkError {
     #[error("{0} is not an unmodified built-in world: save the run as a file instead")]
     World(String),
     /// A sensor that is not the lab's.
-    #[error("the run has a range sensor of its own: save the run as a file instead")]
+    #[error("the run's range sensor is not the lab's usual one: save the run as a file instead")]
     Sensor,
 }
 

@@ -43,7 +43,7 @@ fn words(why: &Explanation) -> String {
         }
         LastChance::None(none) => none.to_string(),
     };
-    let still = [&why.stopping, &why.going_on].into_iter().filter_map(LastChance::evasion).any(|e| e.is_still_met);
-    let still = if still { " The other one is in contact all the same." } else { "" };
+    let ways = || [&why.stopping, &why.going_on].into_iter().filter_map(LastChance::evasion);
+    let still = if ways().any(|way| way.is_still_met) { " The other one is in contact all the same." } else { "" };
     format!("{met} {stops}; {goes_on}.{still}")
 }

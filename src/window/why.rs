@@ -62,7 +62,8 @@ pub fn play_way_out(world: &mut World) {
     match take_script(world, way_out.script, way_out.tick - 1) {
         Ok(()) => {
             world.resource_mut::<Transport>().playback = Playback::Playing;
-            let text = format!("The way out from {:.2} s on. Undo brings back the run.", seconds(way_out.tick));
+            let [from, until] = [way_out.tick, way_out.free_until].map(seconds);
+            let text = format!("The way out from {from:.2} s on, free until {until:.2} s. Undo brings back the run.");
             say(world, text, false);
         }
         Err(error) => say(world, error.to_string(), true),

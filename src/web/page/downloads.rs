@@ -56,6 +56,8 @@ pub fn files(world: &mut World) {
             }
             SessionCommand::Capture(order) => capture(world, &order),
             SessionCommand::PlayPath
+            | SessionCommand::Why
+            | SessionCommand::PlayWayOut
             | SessionCommand::RunWorld
             | SessionCommand::ThreeRobots
             | SessionCommand::RunFromHere

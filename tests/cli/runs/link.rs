@@ -41,7 +41,7 @@ fn a_run_that_fits_in_no_address_is_refused_and_an_unfinished_one_has_no_digest(
     run(&["record", "--ticks", "30", "--rays", "5", "-o", &log]).done();
     let refused = run(&["link", &log]);
     assert_eq!((refused.code, &*refused.out), (Some(3), ""));
-    assert!(refused.err.contains("run.mcap: the run has a range sensor of its own"), "{}", refused.err);
+    assert!(refused.err.contains("run.mcap: the run's range sensor is not the lab's usual one"), "{}", refused.err);
     let none = run(&["link", &path("none.mcap")]);
     assert!(none.code == Some(3) && none.err.contains("none.mcap"), "{}", none.err);
     let place = run(&["link", &log, "--site", "example.org"]);

@@ -45,9 +45,18 @@ enum Phase {
     /// A way round is planned.
     Round(Box<Branches>, RoundTries),
     /// A way out is simulated in the whole run.
-    Confirm { branches: Box<Branches>, run: Box<Recorder>, evasion: Evasion, then: Confirmed },
+    Confirm(Box<Confirmation>, Confirmed),
     /// It is done, or has failed.
     Over,
+}
+
+/// A way out, simulated in the whole run.
+struct Confirmation {
+    branches: Branches,
+    run: Recorder,
+    /// The run without it, where the world changes meanwhile.
+    as_it_was: Option<Recorder>,
+    evasion: Evasion,
 }
 
 /// What follows where a way out is none in the whole run.
@@ -146,30 +155,40 @@ impl Explaining {
             }
             Phase::Stay(branches, extent) => self.stay(branches, extent),
             Phase::Round(branches, tries) => self.round(branches, tries),
-            Phase::Confirm { branches, mut run, mut evasion, then } => {
-                self.ticks += 1;
-                let frame = run.step();
-                let state = |robot: &str| {
-                    let id = self.recipe.config.robot_names().position(|name| name == robot);
-                    id.and_then(|id| frame.robots.get(id))
-                };
-                let touches = state(&branches.episode.robot).is_none_or(|robot| robot.in_contact);
-                let tick = frame.tick;
-                if let ContactPartner::Robot(other) = &branches.episode.with {
-                    let meets = state(other).is_some_and(|other| other.in_contact);
-                    evasion.is_still_met |= tick >= evasion.tick && meets;
-                }
-                if tick >= evasion.tick && touches {
-                    return self.unconfirmed(branches, evasion, then);
-                }
-                if tick >= evasion.free_until {
-                    return self.answered(branches, LastChance::At(evasion));
-                }
-                self.phase = Phase::Confirm { branches, run, evasion, then };
-                Ok(None)
-            }
+            Phase::Confirm(confirmation, then) => self.go_on(confirmation, then),
             Phase::Over => Err(AvoidError::Over),
         }
+    }
+
+    /// Runs the next tick of a way out in the whole run.
+    fn go_on(&mut self, mut at: Box<Confirmation>, then: Confirmed) -> Result<Option<Explanation>, AvoidError> {
+        self.ticks += 1;
+        let Confirmation { branches, run, as_it_was, evasion } = &mut *at;
+        let frame = run.step();
+        let state = |robot: &str| {
+            let id = self.recipe.config.robot_names().position(|name| name == robot);
+            id.and_then(|id| frame.robots.get(id))
+        };
+        let touches = state(&branches.episode.robot).is_none_or(|robot| robot.in_contact);
+        let tick = frame.tick;
+        if let ContactPartner::Robot(other) = &branches.episode.with {
+            let meets = state(other).is_some_and(|other| other.in_contact);
+            evasion.is_still_met |= tick >= evasion.tick && meets;
+        }
+        if let Some(as_it_was) = as_it_was {
+            as_it_was.step();
+            evasion.is_in_the_way = run.refusals().count() > as_it_was.refusals().count();
+        }
+        if tick >= evasion.tick && touches {
+            let Confirmation { branches, evasion, .. } = *at;
+            return self.unconfirmed(Box::new(branches), evasion, then);
+        }
+        if tick >= evasion.free_until {
+            let Confirmation { branches, evasion, .. } = *at;
+            return self.answered(Box::new(branches), LastChance::At(evasion));
+        }
+        self.phase = Phase::Confirm(at, then);
+        Ok(None)
     }
 
     fn count(&mut self, ticks: u64) {
@@ -233,10 +252,21 @@ impl Explaining {
 
     fn driven(&self, branches: &Branches, channels: Vec<(u64, [i16; 2])>, extent: SearchExtent) -> Evasion {
         let episode = &branches.episode;
-        let inputs = channels.iter().map(|&(tick, [a, b])| (tick, RobotInput::Drive(a, b)));
-        let script = self.script(episode, extent.earliest, inputs);
         let (tick, free_until) = (extent.earliest, episode.first + self.set.horizon);
-        Evasion { tick, free_until, means: EvasionMeans::Channels(channels), script, extent, is_still_met: false }
+        let inputs = channels.iter().map(|&(tick, [a, b])| (tick, RobotInput::Drive(a, b)));
+        // nothing is known of what comes then, so it stops there
+        let stop =
+            channels.last().filter(|(_, last)| *last != [0, 0]).map(|_| (free_until + 1, RobotInput::Drive(0, 0)));
+        let script = self.script(episode, tick, inputs.chain(stop));
+        Evasion {
+            tick,
+            free_until,
+            means: EvasionMeans::Channels(channels),
+            script,
+            extent,
+            is_still_met: false,
+            is_in_the_way: false,
+        }
     }
 
     /// Lets an arm stay where it is from the next tick before.
@@ -263,7 +293,8 @@ impl Explaining {
         }
         let script = self.script(&branches.episode, tick, [(tick, input)]);
         let means = EvasionMeans::Standing;
-        let evasion = Evasion { tick, free_until: until, means, script, extent, is_still_met: false };
+        let evasion =
+            Evasion { tick, free_until: until, means, script, extent, is_still_met: false, is_in_the_way: false };
         self.confirm(branches, evasion, Confirmed::Surely)
     }
 
@@ -286,7 +317,8 @@ impl Explaining {
                 let script = self.script(&branches.episode, tick, inputs);
                 let free_until = std::cmp::max(arrives, branches.episode.first) + self.set.horizon;
                 let extent = tries.extent;
-                let evasion = Evasion { tick, free_until, means, script, extent, is_still_met: false };
+                let evasion =
+                    Evasion { tick, free_until, means, script, extent, is_still_met: false, is_in_the_way: false };
                 self.confirm(branches, evasion, Confirmed::Else(tries))
             }
             // no earlier tick changes these
@@ -308,8 +340,13 @@ impl Explaining {
         then: Confirmed,
     ) -> Result<Option<Explanation>, AvoidError> {
         let recipe = without_sensors(&Recipe { script: evasion.script.clone(), ..self.recipe.clone() });
-        let run = Box::new(recorder(&recipe, self.add.as_ref())?.without_keyframes());
-        self.phase = Phase::Confirm { branches, run, evasion, then };
+        let run = recorder(&recipe, self.add.as_ref())?.without_keyframes();
+        let meanwhile = evasion.tick..=evasion.free_until;
+        let changes = self.recipe.script.changes.iter().any(|change| meanwhile.contains(&change.tick));
+        let as_it_was = changes.then(|| recorder(&without_sensors(&self.recipe), self.add.as_ref())).transpose()?;
+        let as_it_was = as_it_was.map(Recorder::without_keyframes);
+        let at = Confirmation { branches: *branches, run, as_it_was, evasion };
+        self.phase = Phase::Confirm(Box::new(at), then);
         Ok(None)
     }
 

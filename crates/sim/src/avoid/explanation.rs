@@ -43,7 +43,7 @@ impl LastChance {
 pub struct Evasion {
     /// The first tick with another input: the last chance.
     pub tick: u64,
-    /// The last tick that is known to be free.
+    /// The last tick that is known to be free. A robot that is driven by channels then stops.
     pub free_until: u64,
     /// By what the robot avoids the contact.
     pub means: EvasionMeans,
@@ -54,6 +54,9 @@ pub struct Evasion {
     /// Whether the other robot that it would meet is in contact from then on up to there, with whatever: a contact
     /// counts for whoever moves, so that one that drives on may still meet this one, which stands.
     pub is_still_met: bool,
+    /// Whether it stands in the way of a change of the world that the run makes meanwhile, such as a closing door,
+    /// which is then refused.
+    pub is_in_the_way: bool,
 }
 
 /// By what a robot avoids a contact.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bevy::app::App;
 use motion_lab_core::geometry::{Aabb, Shape};
+use motion_lab_core::num::{greater, hypot, lesser, sin_cos};
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{ChartLine, ConfigurationError, PartRates, Rates};
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
@@ -67,6 +68,8 @@ fn a_rover_steers_away_while_its_circle_fits_and_stops_in_the_last_tick() {
     let EvasionMeans::Channels(channels) = &last.means else { panic!("{last:?}") };
     assert_eq!(channels[0].1[0], 128, "it keeps its speed");
     assert_eq!(last.free_until, episode.first + 40);
+    // and there it stops, so that the way out ends in no other contact
+    assert_eq!(last.script.events.last(), Some(&event(last.free_until + 1, "rover", RobotInput::Drive(0, 0))));
 }
 
 /// The radius of the lab's rover, metres.
@@ -80,8 +83,8 @@ fn a_touring_robot_s_speed_is_measured_and_kept() {
     let mut run = Recorder::new(TourConfig { worlds: vec![world.clone()], ticks: 60, sensor: None }, Seed(3)).unwrap();
     let at = |run: &mut Recorder, tick| run.seek(tick).unwrap().robots[0].configuration.clone();
     let (a, b) = (at(&mut run, 39), at(&mut run, 40));
-    let speed = ((b[0] - a[0]).powi(2) + (b[1] - a[1]).powi(2)).sqrt() / 0.05;
-    let (s, c) = b[2].sin_cos();
+    let speed = hypot(b[0] - a[0], b[1] - a[1]) / 0.05;
+    let (s, c) = sin_cos(b[2]);
     let ahead = RUSTY_RADIUS + 0.06;
     let point = (b[0] + ahead * c, b[1] + ahead * s);
     let quantum = |x: f64| quantized(&[x])[0];
@@ -192,7 +195,8 @@ fn a_car_that_backs_up_keeps_its_speed_backward() {
     let mut run = Recorder::of(&recipe).unwrap();
     let mut at = |tick| run.seek(tick).unwrap().robots[2].configuration.clone();
     let (a, b) = (at(episode.first - 2), at(episode.first - 1));
-    let speed = ((b[0] - a[0]) * b[2].cos() + (b[1] - a[1]) * b[2].sin()) / 0.05;
+    let (s, c) = sin_cos(b[2]);
+    let speed = ((b[0] - a[0]) * c + (b[1] - a[1]) * s) / 0.05;
     let why = explain(&recipe, episode, &EvasionSet::default()).unwrap();
     let EvasionMeans::Channels(channels) = &chance(&why.going_on).means else { panic!() };
     let kept = f64::from(channels[0].1[0]) / 128.0 * motion_lab_core::robots::HITCH.max_speed;
@@ -216,6 +220,28 @@ fn a_speed_is_measured_right_where_the_greatest_would_hit_too() {
         }
     }
     assert!(forward >= 2, "{forward} forward");
+}
+
+#[test]
+fn a_way_out_that_stands_in_a_door_is_said_to() {
+    // a wall is put across the field right before the rover, which is too near to stop for; further on it stands in its
+    // way, and the wall is not put there
+    let world = field(&[("rover", "rusty", &[0.0, 0.0, 0.0])]);
+    let points = quantized(&[1.0, -8.0, 1.0, 8.0]);
+    let added = WorldChange::Add {
+        name: "new".into(),
+        points: vec![(points[0], points[1]), (points[2], points[3])],
+        radius: quantized(&[0.05])[0],
+    };
+    let changes = vec![WorldEvent { tick: 40, world: "field".into(), change: added }];
+    let recipe = recipe(world, 80, vec![event(1, "rover", RobotInput::Drive(64, 0))], changes);
+    let episode = &contact_episodes(&recipe, |_| true).unwrap()[0];
+    assert_eq!(episode.with, ContactPartner::Obstacle("new".into()));
+    let fast =
+        EvasionSet { speeds: EvasionSpeeds::Channels(vec![128]), turns: vec![0], switches: 0, ..Default::default() };
+    let why = explain(&recipe, episode, &EvasionSet { horizon: 10, ..fast.clone() }).unwrap();
+    assert!(chance(&why.going_on).is_in_the_way, "{:?}", chance(&why.going_on));
+    assert!(!chance(&why.stopping).is_in_the_way);
 }
 
 #[test]
@@ -352,10 +378,10 @@ fn a_robot_with_inertia_has_its_braking_distance() {
     let why = Explaining::with_robots(&recipe, ("sled", episode.first), &set, Some(add)).unwrap().finish().unwrap();
     // by hand: 77/128 m/s, less 0.025 m/s in each tick, come to rest within this length
     let speed = 77.0 / 128.0;
-    let braking: f64 = (1..=25).map(|tick| f64::max(speed - 0.025 * f64::from(tick), 0.0) * 0.05).sum();
+    let braking: f64 = (1..=25).map(|tick| greater(speed - 0.025 * f64::from(tick), 0.0) * 0.05).sum();
     let at = |tick: u64| {
         // it reaches its speed in 25 ticks, then goes on evenly
-        let speeding = (1..=tick).map(|k| f64::min(0.025 * k as f64, speed) * 0.05);
+        let speeding = (1..=tick).map(|k| lesser(0.025 * k as f64, speed) * 0.05);
         speeding.sum::<f64>()
     };
     let room = 2.95 - 0.2;

@@ -2,6 +2,7 @@
 
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::geometry::{Aabb, Shape};
+use motion_lab_core::num::sin_cos;
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{HITCH, RUSTY};
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
@@ -32,7 +33,8 @@ fn generated(kind: &str, trailer: bool, seed: u64) -> Recipe {
     let (near, far) = if kind == "rusty" { (0.4, 1.5) } else { (4.0, 11.0) };
     for k in 0..16 {
         let (at, bearing) = (draws.uniform(near, far), draws.uniform(-3.2, 3.2));
-        let pose = Pose2::new(at * bearing.cos(), at * bearing.sin(), 0.0);
+        let (s, c) = sin_cos(bearing);
+        let pose = Pose2::new(at * c, at * s, 0.0);
         let half = draws.uniform(0.1, 1.0) * near;
         let ends = [-half, half].map(|x| Point2::new(x, 0.0));
         let wall = Shape::try_rounded(&ends, 0.05).unwrap();

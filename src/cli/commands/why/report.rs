@@ -30,6 +30,9 @@ struct ChanceReport<'a> {
     /// Whether the robot that it would meet is in contact up to there all the same; left out where it is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     still_met: Option<bool>,
+    /// Whether a change of the world is refused because it stands in the way; left out where none is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    in_the_way: Option<bool>,
     /// Channels, each from its tick on; null for an arm.
     #[serde(skip_serializing_if = "Option::is_none")]
     channels: Option<&'a [(u64, [i16; 2])]>,
@@ -71,7 +74,8 @@ impl<'a> ChanceReport<'a> {
             ..ChanceReport::default()
         };
         match chance {
-            LastChance::At(Evasion { tick, free_until, means, extent, is_still_met, .. }) => {
+            LastChance::At(evasion) => {
+                let Evasion { tick, free_until, means, extent, is_still_met, is_in_the_way, .. } = evasion;
                 let (mut channels, mut path_rad, mut arrives) = (None, None, None);
                 match means {
                     EvasionMeans::Channels(driven) => channels = Some(&driven[..]),
@@ -81,8 +85,17 @@ impl<'a> ChanceReport<'a> {
                     EvasionMeans::Standing => {}
                 }
                 let (last_chance, free_until) = (Some(*tick), Some(*free_until));
-                let still_met = is_still_met.then_some(true);
-                ChanceReport { last_chance, free_until, still_met, channels, path_rad, arrives, ..searched(*extent) }
+                let (still_met, in_the_way) = (is_still_met.then_some(true), is_in_the_way.then_some(true));
+                ChanceReport {
+                    last_chance,
+                    free_until,
+                    still_met,
+                    in_the_way,
+                    channels,
+                    path_rad,
+                    arrives,
+                    ..searched(*extent)
+                }
             }
             LastChance::None(none) => {
                 let extent = if let NoEvasion::TooLate(extent) = none { Some(*extent) } else { None };

@@ -40,12 +40,15 @@ fn going_on(why: &Explanation, set: &EvasionSet) -> String {
     }
 }
 
-/// That the robot it would meet touches something all the same.
+/// That the robot it would meet touches something all the same, and that a change of the world does not come about.
 fn other(why: &Explanation, evasion: &Evasion) -> String {
-    match &why.episode.with {
+    let met = match &why.episode.with {
         ContactPartner::Robot(name) if evasion.is_still_met => format!("; {name} is in contact all the same"),
         _ => String::new(),
-    }
+    };
+    let in_the_way =
+        if evasion.is_in_the_way { "; a change of the world is refused, it stands in the way" } else { "" };
+    format!("{met}{in_the_way}")
 }
 
 /// The last chance, and how long before the contact it is.
