@@ -207,7 +207,7 @@ mod tests {
             assert_eq!(to(expected, decimals), expected);
         }
         assert!(to(-0.3, 0).is_sign_positive() && to(-0.3, 0) == 0.0);
-        for (decimals, expected) in [(-1, 0.0), (0, 3.0), (2, 3.14), (3, 3.141), (4, 3.1415), (5, 3.14159)] {
+        for (decimals, expected) in [(-1, 0.0), (0, 3.0), (2, 314.0 / 1e2), (3, 3_141.0 / 1e3), (4, 31_415.0 / 1e4)] {
             for angle in [expected, std::f64::consts::PI] {
                 assert_eq!((angle_to(angle, decimals), angle_to(-angle, decimals)), (expected, -expected));
             }

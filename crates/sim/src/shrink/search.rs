@@ -72,8 +72,8 @@ impl Shrunk {
 ///
 /// `holds` must depend on the recipe alone. A recipe that cannot run is tried too: it has to be false there. One that
 /// no log can hold is not, nor one with a robot outside its world that was not outside: what is left can be recorded.
-/// With `holds` the result depends on the recipe and the options but [`jobs`](ShrinkOptions::jobs) alone, unless `go_on`,
-/// asked before each candidate, stops the search.
+/// With `holds` the result depends on the recipe and the options but [`jobs`](ShrinkOptions::jobs) alone, unless
+/// `go_on`, asked before each candidate, stops the search.
 pub fn shrink(
     recipe: &Recipe,
     options: &ShrinkOptions,

@@ -8,7 +8,7 @@ use motion_lab::output::PassingFolder;
 use motion_lab::recording::Run;
 use motion_lab::run::{LogKind, Recipe};
 
-use super::again::quoted;
+use super::written::quoted;
 use crate::cli::Failure;
 
 /// What stands for the path of a candidate's log; without it the path is the command's last word.

@@ -1,9 +1,9 @@
 //! `shrink`: the smallest run that still shows something.
 
-mod again;
 mod exec;
 mod report;
 mod shown;
+mod written;
 
 use std::path::{Path, PathBuf};
 
@@ -20,10 +20,10 @@ use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
-use again::WrittenCondition;
 use exec::ExitCheck;
 use report::ShrinkReport;
 use shown::Shown;
+use written::{WrittenCondition, quoted};
 
 /// Shrink a run to the smallest one that still shows something: fewer worlds, robots, obstacles and inputs, less time,
 /// numbers with fewer digits.
@@ -127,6 +127,31 @@ impl ShrinkArgs {
         let again = self.again(&output);
         say(format!("stopped after {tries}{most}; less may show it too\nShrink what is left: {again}"));
         Ok(Outcome::Stopped)
+    }
+
+    /// The command line, for `sh`, that shrinks the run in `left` further, by the same condition and command.
+    fn again(&self, left: &Path) -> String {
+        let left = left.display().to_string();
+        // a name that begins as options do is none behind its folder
+        let left = if left.starts_with('-') { format!("./{left}") } else { left };
+        let mut line = format!("motion-lab shrink {}", quoted(&left));
+        let mut option = |name: &str, value: &str| {
+            let joint = if value.starts_with('-') { "=" } else { " " };
+            line.push_str(&format!(" {name}{joint}{}", quoted(value)));
+        };
+        if let Some(condition) = &self.condition {
+            option("--while", &condition.text);
+        }
+        if let Some(command) = &self.exec {
+            option("--exec", command);
+        }
+        if let Some(code) = self.exit {
+            option("--exit", &code.to_string());
+        }
+        if self.keep_worlds {
+            line.push_str(" --keep-worlds");
+        }
+        line
     }
 
     fn jobs(&self) -> usize {
