@@ -103,7 +103,8 @@ fn the_best_so_far_is_kept_where_the_tries_are_spent() {
     let line = ["shrink", "run.mcap", "--while", "Hitch.refusals>0", "--tries", "4", "--json"];
     let ended = run_in(at, &line);
     assert!(ended.err.contains("stopped after 4 runs, the most allowed"), "{}", ended.err);
-    assert!(ended.err.contains("motion-lab shrink run.shrunk.mcap"), "{}", ended.err);
+    let again = r"Shrink what is left: motion-lab shrink run.shrunk.mcap --while 'Hitch.refusals>0'";
+    assert!(ended.err.contains(again), "{}", ended.err);
     let said = json(&ended.out);
     assert!(ended.code == Some(75) && said["minimal"] == false && said["tries"] == 4, "{said}");
     assert_eq!(&said["after"]["worlds"], &1);
@@ -151,4 +152,43 @@ fn what_cannot_be_shrunk_is_refused_with_what_was_found() {
     assert!(lone.contains("--exec <COMMAND>"), "{lone}");
     assert!(run(&["shrink", "nowhere.mcap", "--while", "Hitch.refusals>0"]).failed(3).contains("nowhere.mcap"));
     assert!(!at.join("run.shrunk.mcap").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn the_line_that_goes_on_with_what_is_left_is_run_as_it_is_printed() {
+    let folder = folder();
+    let at = folder.path();
+    let condition = r#""Hitch".refusals>0 && Hitch.path_m >= 0"#;
+    let line = ["shrink", "run.mcap", "--while", condition, "--exec", "test 'a b' = {} || exit 7", "--keep-worlds"];
+    let named = ["--exit", "7", "--tries", "1", "-o", "what's left.mcap"];
+    let ended = run_in(at, &[&line[..], &named[..]].concat());
+    assert_eq!(ended.code, Some(75), "{}", ended.err);
+    let again = ended.err.split("Shrink what is left: motion-lab").nth(1).unwrap().lines().next().unwrap();
+    let again = format!("{} {again}", env!("CARGO_BIN_EXE_motion-lab"));
+    let ended = std::process::Command::new("sh").arg("-c").arg(&again).current_dir(at).output().unwrap();
+    assert!(ended.status.success(), "{again}: {}", String::from_utf8_lossy(&ended.stderr));
+    assert_eq!(stats(at, "what's left.shrunk.mcap")["robots"].as_array().unwrap().len(), 1);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_command_that_cannot_be_run_is_told_with_what_it_says() {
+    let folder = folder();
+    let refusal = |command: &str| run_in(folder.path(), &["shrink", "run.mcap", "--exec", command]).failed(3);
+    let error = refusal("no-such-command");
+    assert!(error.contains("is 127, expected 0 (127: there is no such command)\n  "), "{error}");
+    assert!(error.contains("no-such-command: ") && !error.contains("motion-lab stats"), "{error}");
+    assert!(refusal("./drive.ron").contains("is 126, expected 0 (126: the command is there but can't be run)\n  "));
+    assert!(refusal("echo why it is 3 >&2; exit 3 #").contains("is 3, expected 0\n  why it is 3\n"));
+}
+
+#[test]
+fn a_run_without_robots_is_said_to_have_none() {
+    let folder = folder();
+    let world = r#"World(version: 1, name: "bare", bounds: (min: (0, 0), max: (4, 4)))"#;
+    fs::write(folder.path().join("bare.ron"), world).unwrap();
+    run_in(folder.path(), &["record", "--world", "bare.ron", "--ticks", "2", "-o", "bare.mcap"]).done();
+    let error = run_in(folder.path(), &["shrink", "bare.mcap", "--while", "Hitch.contacts>0"]).failed(2);
+    assert!(error.contains("The run has no robots"), "{error}");
 }

@@ -26,6 +26,7 @@ pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
 pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState, seconds};
 pub use log::{DIGEST_TICKS, Log, LogKind, MAX_ROBOTS_IN_FULL, Recorded, SecondDigests};
+pub(crate) use mcap::check_recordable;
 pub use mcap::{
     DIGEST_FORMAT_VERSION, DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES,
     GENERATOR, LogError, LogWriter, OtherRun, ReadLog, TICK_NANOSECONDS,

@@ -29,6 +29,7 @@ mod condition_error;
 mod condition_text;
 mod first;
 mod reading;
+mod recordable;
 mod removal;
 mod round;
 mod search;

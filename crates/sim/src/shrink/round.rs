@@ -7,8 +7,10 @@ use std::sync::Arc;
 use super::starts::in_contact_at_start;
 use super::without::as_from_a_file;
 use crate::run::{Quantized, Recipe, RobotInput, WorldChange};
+use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::geometry::{Point2, Pose2, Shape, ShapeError};
-use motion_lab_core::worlds::{Obstacle, SourceShape};
+use motion_lab_core::num::wrap;
+use motion_lab_core::worlds::{Obstacle, Resident, SourceShape};
 
 /// The numbers of decimals that are tried, the fewest first; -2 is a multiple of a hundred, 6 the micrometre that is
 /// nearly the unit of scripts.
@@ -40,7 +42,7 @@ pub(super) fn rounded(recipe: &Recipe, things: &BTreeSet<Rounded>, decimals: i32
             Rounded::Change(i) => round_change(&mut left.script.changes.get_mut(i)?.change, decimals)?,
             Rounded::Start(w, r) => {
                 let robot = Arc::make_mut(&mut left.config).worlds.get_mut(w)?.robots.get_mut(r)?;
-                robot.start.iter_mut().for_each(|x| *x = to(*x, decimals));
+                robot.start = round_start(robot, decimals);
             }
             Rounded::Obstacle(w, o) => {
                 let obstacle = Arc::make_mut(&mut left.config).worlds.get_mut(w)?.obstacles.get_mut(o)?;
@@ -89,10 +91,9 @@ fn is_changed(recipe: &Recipe, thing: Rounded, decimals: i32) -> bool {
             let mut change = event.change.clone();
             round_change(&mut change, decimals).is_some() && change != event.change
         }),
-        Rounded::Start(w, r) => worlds.get(w).and_then(|world| world.robots.get(r)).map(|robot| {
-            let fits = |x: &f64| to(*x, decimals) == *x;
-            !robot.start.iter().all(fits)
-        }),
+        Rounded::Start(w, r) => {
+            worlds.get(w).and_then(|world| world.robots.get(r)).map(|robot| robot.start != round_start(robot, decimals))
+        }
         Rounded::Obstacle(w, o) => worlds.get(w).and_then(|world| world.obstacles.get(o)).map(|obstacle| {
             let rounded = round_obstacle(obstacle, decimals);
             rounded.is_some_and(|rounded| rounded != *obstacle)
@@ -107,10 +108,28 @@ fn is_changed(recipe: &Recipe, thing: Rounded, decimals: i32) -> bool {
 
 /// The number rounded to this number of decimals, never `-0.0`.
 fn to(x: f64, decimals: i32) -> f64 {
+    rounded_by(f64::round, x, decimals)
+}
+
+/// The angle rounded to this number of decimals: towards 0 where it would be more than half a turn, which a world file
+/// does not hold.
+fn angle_to(x: f64, decimals: i32) -> f64 {
+    let nearest = to(x, decimals);
+    if wrap(nearest) == nearest { nearest } else { rounded_by(f64::trunc, x, decimals) }
+}
+
+fn rounded_by(round: fn(f64) -> f64, x: f64, decimals: i32) -> f64 {
     // powers of ten of these sizes are exact
     let scale = (0..decimals.unsigned_abs()).fold(1.0, |scale, _| scale * 10.0);
-    let rounded = if decimals < 0 { (x / scale).round() * scale } else { (x * scale).round() / scale };
+    let rounded = if decimals < 0 { round(x / scale) * scale } else { round(x * scale) / scale };
     rounded + 0.0
+}
+
+/// The start of a robot with its coordinates rounded; those of kinds that are not the lab's have no angles.
+fn round_start(robot: &Resident, decimals: i32) -> Vec<f64> {
+    let lengths = RobotKind::of(&robot.kind).map_or(usize::MAX, |kind| kind.lengths);
+    let round = |(i, x): (usize, &f64)| if i < lengths { to(*x, decimals) } else { angle_to(*x, decimals) };
+    robot.start.iter().enumerate().map(round).collect()
 }
 
 fn point(p: Point2, decimals: i32) -> Point2 {
@@ -153,7 +172,7 @@ fn round_obstacle(obstacle: &Obstacle, decimals: i32) -> Option<Obstacle> {
                 rounded.add_polygon(&points).ok()?;
             }
             SourceShape::Piece((pose, shape)) => {
-                let pose = Pose2::new(to(pose.x, decimals), to(pose.y, decimals), to(pose.theta, decimals));
+                let pose = Pose2::new(to(pose.x, decimals), to(pose.y, decimals), angle_to(pose.theta, decimals));
                 rounded.pieces.push((pose, round_shape(shape, decimals).ok()?));
             }
         }
@@ -188,6 +207,11 @@ mod tests {
             assert_eq!(to(expected, decimals), expected);
         }
         assert!(to(-0.3, 0).is_sign_positive() && to(-0.3, 0) == 0.0);
+        for (decimals, expected) in [(-1, 0.0), (0, 3.0), (2, 314.0 / 1e2), (3, 3_141.0 / 1e3), (4, 31_415.0 / 1e4)] {
+            for angle in [expected, std::f64::consts::PI] {
+                assert_eq!((angle_to(angle, decimals), angle_to(-angle, decimals)), (expected, -expected));
+            }
+        }
     }
 
     #[test]

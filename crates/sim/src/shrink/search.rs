@@ -1,8 +1,10 @@
 //! `shrink`, the search for the smallest recipe that still shows something.
 
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::first::first_holding;
+use super::recordable::is_recordable;
 use super::removal::{Removal, RemovalGroup};
 use super::round::{DECIMALS, Rounded, roundable, rounded};
 use super::size::RecipeSize;
@@ -68,9 +70,10 @@ impl Shrunk {
 /// again until nothing more succeeds: delta debugging (Zeller and Hildebrandt). Then numbers get fewer digits, as far
 /// as everything that is left stays needed, so that a start is not rounded into an obstacle.
 ///
-/// `holds` must depend on the recipe alone. A recipe that cannot run is tried too: it has to be false there. With
-/// `holds` the result depends on the recipe and the options but [`jobs`](ShrinkOptions::jobs) alone, unless `go_on`,
-/// asked before each candidate, stops the search.
+/// `holds` must depend on the recipe alone. A recipe that cannot run is tried too: it has to be false there. One that
+/// no log can hold is not, nor one with a robot outside its world that was not outside: what is left can be recorded.
+/// With `holds` the result depends on the recipe and the options but [`jobs`](ShrinkOptions::jobs) alone, unless
+/// `go_on`, asked before each candidate, stops the search.
 pub fn shrink(
     recipe: &Recipe,
     options: &ShrinkOptions,
@@ -192,12 +195,17 @@ impl<H: Fn(&Recipe) -> bool + Sync, G: Fn() -> bool + Sync> Shrinking<'_, H, G> 
 
     /// The first of so many candidates that holds, with its index.
     fn first(&mut self, count: usize, candidate: impl Fn(usize) -> Option<Recipe> + Sync) -> Option<(usize, Recipe)> {
-        let Shrinking { holds, go_on, options, .. } = self;
+        let Shrinking { holds, go_on, options, best, .. } = self;
         let left = options.max_tries.saturating_sub(self.tries);
         let allowed = usize::try_from(left).unwrap_or(usize::MAX).min(count);
-        let tried = |i: usize| candidate(i).is_some_and(|recipe| holds(&recipe));
+        // fewer than are allowed are begun where it is not to go on
+        let begun = AtomicU64::new(0);
+        let tried = |i: usize| {
+            begun.fetch_add(1, Ordering::Relaxed);
+            candidate(i).is_some_and(|recipe| is_recordable(&recipe, best) && holds(&recipe))
+        };
         let found = first_holding(options.jobs, allowed, tried, &*go_on);
-        self.tries += found.map_or(allowed, |i| i + 1) as u64;
+        self.tries += found.map_or(begun.into_inner(), |i| i as u64 + 1);
         match found {
             Some(i) => return candidate(i).map(|recipe| (i, recipe)),
             None if !go_on() => self.end = Some(ShrinkEnd::Stopped),

@@ -3,12 +3,13 @@
 mod exec;
 mod report;
 mod shown;
+mod written;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use motion_lab::run::{Log, LogKind, Recipe};
-use motion_lab::shrink::{Condition, ShrinkEnd, ShrinkOptions, shrink};
+use motion_lab::shrink::{ShrinkEnd, ShrinkOptions, shrink};
 
 use crate::cli::support::choices::{Site, log_kind};
 use crate::cli::support::input::is_dash;
@@ -22,13 +23,14 @@ use crate::cli::{Data, Failure, Outcome, say};
 use exec::ExitCheck;
 use report::ShrinkReport;
 use shown::Shown;
+use written::{WrittenCondition, quoted};
 
 /// Shrink a run to the smallest one that still shows something: fewer worlds, robots, obstacles and inputs, less time,
 /// numbers with fewer digits.
 ///
 /// A condition compares the numbers of robots that `stats --json` lists, ROBOT.COLUMN, such as Hitch.contacts and
 /// Rusty.path_m, or the digest, by == or !=. Comparisons are joined by && and ||, of which && binds closer. A name with
-/// one of the characters <>=!&|" stands between quotes.
+/// one of the characters <>=!&|" stands between quotes; a quote or a backslash in it has a backslash before it.
 ///
 /// What is left is 1-minimal: without any single thing of it, or a tick shorter, it no longer shows it. It is the same
 /// for any number of jobs. After Ctrl-C or the last try allowed, the best so far is kept, and the exit code is 75.
@@ -45,7 +47,7 @@ pub struct ShrinkArgs {
     file: PathBuf,
     /// What the run shows: `Hitch.contacts > 0`.
     #[arg(long = "while", value_name = "CONDITION", required_unless_present = "exec")]
-    condition: Option<Condition>,
+    condition: Option<WrittenCondition>,
     /// A command that tells by its exit code whether a run shows it. `sh` runs it for each candidate, with the path of
     /// the candidate's log in place of {}, or behind it: 'other-lab verify {}'. With --while too, both have to hold.
     #[arg(long, value_name = "COMMAND")]
@@ -88,7 +90,7 @@ impl ShrinkArgs {
         let kind = self.log.unwrap_or(log.kind());
         let command =
             self.exec.as_deref().map(|text| ExitCheck::new(text, self.exit.unwrap_or(0), kind)).transpose()?;
-        let shown = Shown::new(self.condition.as_ref(), command);
+        let shown = Shown::new(self.condition.as_ref().map(|written| &written.condition), command);
         interrupt::listen();
         if !shown.check(&self.file, &log.recipe)? {
             say("stopped before the run itself was tried; nothing was written");
@@ -116,19 +118,40 @@ impl ShrinkArgs {
         }
         target.wrote();
         let tries = counted(shrunk.tries, "run");
-        match shrunk.end {
+        let most = match shrunk.end {
             ShrinkEnd::Minimal if damage.is_some() => return Ok(Outcome::Recovered),
             ShrinkEnd::Minimal => return Ok(Outcome::Done),
-            ShrinkEnd::TriesSpent => say(format!(
-                "stopped after {tries}, the most allowed; less may show it too\nShrink what is left: motion-lab shrink {}",
-                output.display()
-            )),
-            ShrinkEnd::Stopped => say(format!(
-                "stopped after {tries}; less may show it too\nShrink what is left: motion-lab shrink {}",
-                output.display()
-            )),
-        }
+            ShrinkEnd::TriesSpent => ", the most allowed",
+            ShrinkEnd::Stopped => "",
+        };
+        let again = self.again(&output);
+        say(format!("stopped after {tries}{most}; less may show it too\nShrink what is left: {again}"));
         Ok(Outcome::Stopped)
+    }
+
+    /// The command line, for `sh`, that shrinks the run in `left` further, by the same condition and command.
+    fn again(&self, left: &Path) -> String {
+        let left = left.display().to_string();
+        // a name that begins as options do is none behind its folder
+        let left = if left.starts_with('-') { format!("./{left}") } else { left };
+        let mut line = format!("motion-lab shrink {}", quoted(&left));
+        let mut option = |name: &str, value: &str| {
+            let joint = if value.starts_with('-') { "=" } else { " " };
+            line.push_str(&format!(" {name}{joint}{}", quoted(value)));
+        };
+        if let Some(condition) = &self.condition {
+            option("--while", &condition.text);
+        }
+        if let Some(command) = &self.exec {
+            option("--exec", command);
+        }
+        if let Some(code) = self.exit {
+            option("--exit", &code.to_string());
+        }
+        if self.keep_worlds {
+            line.push_str(" --keep-worlds");
+        }
+        line
     }
 
     fn jobs(&self) -> usize {

@@ -55,24 +55,33 @@ impl<'a> Shown<'a> {
     /// Checks that the run itself shows it. False where somebody asked to stop.
     pub fn check(&self, file: &Path, recipe: &Recipe) -> Result<bool, Failure> {
         begin(recipe)?;
-        let not_shown = |found: String| {
+        let not_shown = |found: String, next: &str| {
             let reason = format!("{}: the run itself does not show it: {found}", shown(file));
-            Failure::input(reason, "Say what it does show; `motion-lab stats` counts it.")
+            Failure::input(reason, next)
         };
         if let Some(condition) = self.condition {
             condition.check_for(&recipe.config).map_err(|error| {
                 let robots: Vec<&str> = recipe.config.robot_names().take(20).collect();
-                Failure::usage(format!("--while: {error}"), format!("The robots there are {}.", robots.join(", ")))
+                let next = match robots.join(", ") {
+                    none if none.is_empty() => "The run has no robots; ask for its digest, or --exec.".to_owned(),
+                    robots => format!("The robots there are {robots}."),
+                };
+                Failure::usage(format!("--while: {error}"), next)
             })?;
             let read = condition.read(recipe, || !interrupt::asked_to_stop()).map_err(Failure::internal)?;
             let Some(reading) = read else { return Ok(false) };
             if !condition.is_met(&reading) {
-                return Err(not_shown(condition.unmet(&reading).join(", ")));
+                return Err(not_shown(
+                    condition.unmet(&reading).join(", "),
+                    "Say what it does show; `motion-lab stats` counts it.",
+                ));
             }
         }
         match self.command.as_ref().map(|command| command.refusal(recipe)).transpose()?.flatten() {
             Some(_) if interrupt::asked_to_stop() => Ok(false),
-            Some(found) => Err(not_shown(found)),
+            Some(found) => {
+                Err(not_shown(found, "Correct the command, or say by --exit which code it has where a run shows it."))
+            }
             None => Ok(true),
         }
     }

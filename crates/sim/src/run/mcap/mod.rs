@@ -47,5 +47,6 @@ pub use channel::{
     DIGEST_FORMAT_VERSION, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, TICK_NANOSECONDS,
 };
 pub use error::{DamageKind, DamagedLog, LogError, OtherRun};
+pub(crate) use preamble::check_recordable;
 pub use read_log::ReadLog;
 pub use writer::LogWriter;

@@ -55,6 +55,33 @@ fn world_file(index: usize) -> String {
     format!("worlds/{index}.ron")
 }
 
+/// Checks that a log can hold a run of this recipe, but for the worlds that are `known` to be as a file describes them.
+pub fn check_recordable(recipe: &Recipe, known: impl Fn(&World) -> bool) -> Result<(), LogError> {
+    check_run(recipe)?;
+    let mut worlds = recipe.config.worlds.iter().enumerate().filter(|(_, world)| !known(world));
+    worlds.try_for_each(|(i, world)| check_world(i, world, &world.to_ron()))
+}
+
+/// Checks a recipe, but for what is in its worlds.
+fn check_run(recipe: &Recipe) -> Result<(), LogError> {
+    let Recipe { config, script, .. } = recipe;
+    config.validate()?;
+    script.check()?;
+    script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
+    script.check_worlds(&config.worlds)?;
+    Ok(())
+}
+
+/// Checks that the text of the world of this number says what it is.
+fn check_world(index: usize, world: &World, text: &str) -> Result<(), LogError> {
+    let name = world_file(index);
+    match World::parse_recorded(&name, text) {
+        Ok(read) if read == *world => Ok(()),
+        Ok(_) => Err(content(&name, "the world is not one that a world file can describe")),
+        Err(e) => Err(content(&name, &e.to_string())),
+    }
+}
+
 impl Preamble {
     /// The preamble of a run that this program records.
     pub fn new(recipe: &Recipe, kind: LogKind, initial: &Frame) -> Result<Self, LogError> {
@@ -83,23 +110,13 @@ impl Preamble {
         preamble.check()?;
         // a world assembled by hand may hold what the file format cannot express; a replay would then run in another
         // world
-        for (i, (world, text)) in worlds.iter().zip(&preamble.world_texts).enumerate() {
-            let name = world_file(i);
-            match World::parse_recorded(&name, text) {
-                Ok(read) if read == *world => {}
-                Ok(_) => return Err(content(&name, "the world is not one that a world file can describe")),
-                Err(e) => return Err(content(&name, &e.to_string())),
-            }
-        }
+        let mut worlds = worlds.iter().zip(&preamble.world_texts).enumerate();
+        worlds.try_for_each(|(i, (world, text))| check_world(i, world, text))?;
         Ok(preamble)
     }
 
     fn check(&self) -> Result<(), LogError> {
-        let Recipe { config, script, .. } = &self.recipe;
-        config.validate()?;
-        script.check()?;
-        script.check_robots(&config.robot_names().collect::<Vec<_>>())?;
-        script.check_worlds(&config.worlds)?;
+        check_run(&self.recipe)?;
         self.initial.as_ref().map_or(Ok(()), |initial| self.check_frame(initial, 0))
     }
 

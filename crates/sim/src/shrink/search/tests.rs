@@ -4,9 +4,12 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
+use crate::recording::Run;
 use crate::run::{Event, Quantized, RobotInput, Script, WorldChange, WorldEvent};
+use crate::run::{Log, LogKind};
 use crate::tour::TourConfig;
 use motion_lab_core::random::Seed;
+use motion_lab_core::worlds::World;
 
 fn drive(tick: u64, robot: &str, channels: (i16, i16)) -> Event {
     Event { tick, robot: robot.into(), input: RobotInput::Drive(channels.0, channels.1) }
@@ -91,6 +94,12 @@ fn a_run_that_only_some_lengths_show_is_as_short_as_one_tick_less_does_not_show(
 #[test]
 fn numbers_keep_the_digits_that_are_needed() {
     let mut precise = recipe();
+    // 127 would be rounded to 130, which no script has
+    for event in &mut precise.script.events {
+        if let RobotInput::Drive(_, b) = &mut event.input {
+            *b = 118;
+        }
+    }
     let exactly = |x: f64| Quantized::try_new(x).unwrap();
     precise.script.events[8].input = RobotInput::Teleport(vec![exactly(1.234_567), exactly(-0.5), exactly(0.004_9)]);
     let needed = |recipe: &Recipe| {
@@ -147,4 +156,69 @@ fn a_recipe_without_anything_is_minimal_at_once() {
     *Arc::make_mut(&mut empty.config) = TourConfig { worlds: vec![], ticks: 0, sensor: None };
     let shrunk = shrink(&empty, &ShrinkOptions::default(), |_| true, || true);
     assert_eq!((shrunk.tries, shrunk.end, &shrunk.recipe), (0, ShrinkEnd::Minimal, &empty));
+}
+
+/// What is left of a run in this world, for which `holds` is to be true; a log holds it, and a world file reads so.
+fn left_of(world: &str, holds: impl Fn(&World) -> bool + Sync) -> World {
+    let world = World::parse("yard.ron", world).unwrap();
+    let config = TourConfig { worlds: vec![world], ticks: 3, sensor: None };
+    let holds = |recipe: &Recipe| recipe.config.worlds.first().is_some_and(&holds);
+    let shrunk = shrink(&Recipe::new(config, Seed(1)), &ShrinkOptions::default(), holds, || true);
+    assert!(shrunk.is_minimal() && holds(&shrunk.recipe));
+    let log: Log = Run::record_recipe(shrunk.recipe.clone(), LogKind::Digests, |_| {}).unwrap();
+    assert_eq!(log.write_mcap(Vec::new()).map_err(|error| error.to_string()), Ok(()));
+    let left = shrunk.recipe.config.worlds[0].clone();
+    assert_eq!(World::parse("left.ron", &left.to_ron()).as_ref(), Ok(&left));
+    left
+}
+
+#[test]
+fn a_car_keeps_the_sizes_with_which_it_takes_the_corners_of_its_route() {
+    let world = r#"World(version: 1, name: "yard", bounds: (min: (0, 0), max: (20, 20)),
+        routes: [(name: "round", points: [(4, 4), (16, 4), (16, 16), (4, 16)], radius: 2.4, speed: 0.4)],
+        robots: [(name: "A", kind: "hitch", start: [8, 4, 0], route: "round", car: (wheelbase: 1.5, length: 2.5))],
+    )"#;
+    let left = left_of(world, |world| world.robots.iter().any(|robot| robot.route.is_some()));
+    assert!(left.robots[0].sizes.is_some());
+    let left = left_of(world, |world| !world.robots.is_empty());
+    assert!(left.robots[0].sizes.is_none() && left.robots[0].route.is_none());
+}
+
+#[test]
+fn a_heading_of_nearly_half_a_turn_is_not_rounded_beyond_it() {
+    for (sign, shape) in [("", "Disc(center: (15, 15), radius: 0.5)"), ("-", "Disc(center: (1, 1), radius: 0.5)")] {
+        let world = format!(
+            r#"World(version: 1, name: "yard", bounds: (min: (0, 0), max: (20, 20)),
+            obstacles: [(name: "post", shape: {shape})],
+            robots: [(name: "A", kind: "rusty", start: [8.12, 4.34, {sign}3.141592])])"#
+        );
+        let nearly = |world: &World| world.robots.iter().any(|robot| robot.start[2].abs() > 3.14155);
+        assert_eq!(left_of(&world, nearly).robots[0].start[2].abs(), 314_159.0 / 1e5);
+        let about = |world: &World| world.robots.iter().any(|robot| robot.start[2].abs() > 3.1412);
+        assert_eq!(left_of(&world, about).robots[0].start[2].abs(), 31_415.0 / 1e4);
+    }
+}
+
+#[test]
+fn a_start_is_not_rounded_to_outside_its_world() {
+    let world = r#"World(version: 1, name: "yard", bounds: (min: (0.3, 0.3), max: (5, 5)),
+        robots: [(name: "A", kind: "rusty", start: [0.4, 0.4, 0])])"#;
+    let start = left_of(world, |world| !world.robots.is_empty()).robots[0].start.clone();
+    assert_eq!(start, [0.4, 0.4, 0.0]);
+}
+
+#[test]
+fn runs_that_were_not_begun_are_not_counted() {
+    for jobs in [1, 2, 8] {
+        let (asked, tried) = (AtomicU64::new(0), AtomicU64::new(0));
+        let holds = |_: &Recipe| {
+            tried.fetch_add(1, Ordering::Relaxed);
+            false
+        };
+        // all three worlds, two and one; then each, of which the first is not begun
+        let go_on = || asked.fetch_add(1, Ordering::Relaxed) < 5;
+        let shrunk = shrink(&recipe(), &ShrinkOptions { jobs, ..ShrinkOptions::default() }, holds, go_on);
+        assert_eq!((shrunk.end, shrunk.tries), (ShrinkEnd::Stopped, 3), "{jobs} jobs");
+        assert!(tried.into_inner() <= 3);
+    }
 }
