@@ -19,8 +19,9 @@ use crate::cli::support::choices::RobotNames;
 ///   each tick, from the contact's back. "Too late" is exact over this set and nothing else: channels that stay the
 ///   same but for --switches, at multiples of --every. An arm goes round to where it leaves the contact, by a planner.
 ///
-/// A way out has been simulated in the whole run, and has no contact of the robot until --horizon after the beginning of
-/// the one it avoids. Another robot may still drive into one that stands, and is said to.
+/// A way out has been simulated in the whole run, and has no contact of the robot until --horizon after the beginning
+/// of the one it avoids; a robot that drives stops then. Another robot may still drive into one that stands, and is
+/// said to.
 #[derive(Debug, Args)]
 #[command(
     verbatim_doc_comment,
