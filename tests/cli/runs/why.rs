@@ -78,7 +78,7 @@ fn what_cannot_be_asked_is_refused_and_a_run_without_contacts_is_said() {
     let folder = folder();
     let at = folder.path();
     let refused = |line: &[&str], code: i32| run_in(at, &[&["why", "run.mcap"], line].concat()).failed(code);
-    assert!(refused(&["--robot", "Hich"], 2).contains("Did you mean \"Hitch\"?"));
+    assert!(refused(&["--robot", "hitch"], 2).contains("Did you mean \"Hitch\"?"));
     assert!(refused(&["--robot", "Hitch", "--contact", "2"], 2).contains("It has Hitch 1."));
     assert!(refused(&["--turns", "200"], 2).contains("channel 200"));
     assert!(refused(&["--every", "0.12"], 2).contains("not a whole number of ticks"));
