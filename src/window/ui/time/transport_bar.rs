@@ -19,7 +19,7 @@ use motion_lab_sim::simulation::{History, TransportCommand};
 
 /// Width that the time takes at the end of its row, and the least that a reason beside the seed has, points.
 const TIME_ROOM: f32 = 170.0;
-const REASON: f32 = 240.0;
+const REASON: f32 = 226.0;
 
 /// The speeds to choose from, simulated seconds per second of the clock.
 const SPEEDS: [(f64, &str); 11] = [
