@@ -108,12 +108,12 @@ pub fn transport_bar(
         ui.horizontal(|ui| {
             for group in GROUPS {
                 buttons(ui, model, look, group, commands);
-                ui.add_space(10.0);
+                ui.add_space(4.0);
             }
             for (label, action) in &MORE[2..] {
                 button(ui, model, (LabButton::new(label), *action), look, commands);
             }
-            ui.add_space(10.0);
+            ui.add_space(4.0);
             speed_choice(ui, model, commands);
             seed_and_time(ui, model, look, top, state, commands);
         });
