@@ -90,8 +90,16 @@ fn what_cannot_be_asked_is_refused_and_a_run_without_contacts_is_said() {
         said.contains("by going on: too late from tick 74 on, of 11 branches tried; --back looks farther back"),
         "{said}"
     );
-    let none = run_in(at, &[&["why", "run.mcap"], &too_late[..]].concat());
-    assert!(none.code == Some(4) && none.err.contains("there is no way out") && !at.join("way.mcap").exists());
+    // where it can't go on it can stop, and that is written
+    assert_eq!(run_in(at, &[&["why", "run.mcap"], &too_late[..]].concat()).done(), said);
+    assert_eq!(contacts(at, "way.mcap", "Hitch"), 0);
+    // an arm that begins in the block has no way out of it
+    let touching =
+        ["record", "--world", "workbench", "--place", "Reach=0,1.5708", "--ticks", "20", "-o", "touching.mcap"];
+    run_in(at, &touching).done();
+    let none = run_in(at, &["why", "touching.mcap", "-o", "none.mcap"]);
+    assert!(none.code == Some(4) && none.err.contains("there is no way out") && !at.join("none.mcap").exists());
+    assert!(none.out.contains("by stopping: too late from tick 1 on, of 1 branch tried; the run begins there"));
     let further = ["--robot", "Hitch", "--speeds", "128", "--turns=-1,0,-1", "--switches", "0", "--back", "30"];
     let said = run_in(at, &[&["why", "run.mcap"], &further[..]].concat()).done();
     assert!(said.contains("too late from tick 1 on, of 168 branches tried; the run begins there"), "{said}");
