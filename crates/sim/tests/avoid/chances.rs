@@ -173,16 +173,17 @@ fn another_robot_is_named_and_goes_on_as_it_would() {
 
 #[test]
 fn what_others_are_told_meanwhile_they_do_in_every_branch() {
-    // a stands until it is told to drive at b, which comes along slowly
+    // a stands until b, which comes along slowly, is so near that it is too late for b when a begins to drive
     let robots: [(&str, &str, &[f64]); 2] =
         [("a", "rusty", &[0.0, 0.0, 0.0]), ("b", "rusty", &[1.5, 0.0, std::f64::consts::PI])];
-    let events = vec![event(1, "b", RobotInput::Drive(64, 0)), event(30, "a", RobotInput::Drive(128, 0))];
-    let recipe = recipe(field(&robots), 60, events, vec![]);
+    let events = vec![event(1, "b", RobotInput::Drive(64, 0)), event(72, "a", RobotInput::Drive(128, 0))];
+    let recipe = recipe(field(&robots), 100, events, vec![]);
     let episode = &contact_episodes(&recipe, |robot| robot == "b").unwrap()[0];
-    assert!((31..50).contains(&episode.first), "{}", episode.first);
+    assert!((73..80).contains(&episode.first), "{}", episode.first);
     // a way out that counts on a to stand is none, and the whole run would say so
     let why = explain(&recipe, episode, &EvasionSet::default()).unwrap();
     let last = chance(&why.going_on);
+    assert!(last.tick < 72, "{}", last.tick);
     let mut run = Recorder::of(&Recipe { script: last.script.clone(), ..recipe.clone() }).unwrap();
     let contacts = |run: &mut Recorder, tick| run.seek(tick).unwrap().robots[1].contacts;
     assert_eq!(contacts(&mut run, last.free_until), 0);
