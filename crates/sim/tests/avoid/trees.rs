@@ -7,7 +7,7 @@ use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{HITCH, RUSTY};
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World};
 use motion_lab_sim::avoid::{
-    ContactEpisode, EvasionSet, EvasionSpeeds, LastChance, NoEvasion, contact_episodes, explain,
+    ContactEpisode, EvasionMeans, EvasionSet, EvasionSpeeds, LastChance, NoEvasion, contact_episodes, explain,
 };
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{Event, Recipe, RobotInput, Script};
@@ -133,6 +133,9 @@ fn compare<R: SimulatedRobot>(model: &R, recipe: &Recipe) -> [u64; 2] {
             match (&why.going_on, expected) {
                 (LastChance::At(evasion), Some(tick)) => {
                     assert_eq!((evasion.tick, evasion.free_until), (tick, until), "{named}");
+                    let EvasionMeans::Channels(channels) = &evasion.means else { panic!("{named}") };
+                    let are_in_time = channels.iter().all(|(at, _)| (at - tick).is_multiple_of(set.every));
+                    assert!(are_in_time, "{named}: {channels:?} from tick {tick}");
                     counts[0] += u64::from(tick < first);
                     replays_free(recipe, &evasion.script, tick, until);
                 }
