@@ -17,7 +17,7 @@ use oracle::fixtures::count_from_env;
 
 /// The number of runs of each kind. `MOTION_LAB_TREES` changes it.
 fn runs() -> u64 {
-    count_from_env("MOTION_LAB_TREES", 4)
+    count_from_env("MOTION_LAB_TREES", 8)
 }
 
 /// A robot among walls, driven by a few inputs.
