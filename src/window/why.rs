@@ -42,7 +42,7 @@ pub fn explain(world: &mut World) {
         return say(world, "No robot has touched anything yet.".into(), false);
     };
     let Some(robot) = now.config.robot_names().nth(mark.robot as usize).map(str::to_owned) else { return };
-    // the run goes as far as it has come, and no farther than the contact's end
+    // what lies ahead of the run is not known: it ends where it has come to
     let config = Arc::new(TourConfig { ticks: frontier, ..TourConfig::clone(&now.config) });
     let kinds = world.resource::<RobotKinds>().clone();
     let add: AddKinds = Arc::new(move |app: &mut App| kinds.add_to(app));

@@ -24,7 +24,7 @@ pub fn explain(recipe: &Recipe, episode: &ContactEpisode, set: &EvasionSet) -> R
 /// From how many ticks a way round is sought.
 const ROUND_TRIES: usize = 20;
 
-/// The explanation of a contact, a piece at a time: a tick of the run, or a branch of it.
+/// The explanation of a contact, a piece at a time: a tick of the run, some of a branch, or a plan.
 pub struct Explaining {
     recipe: Recipe,
     set: EvasionSet,
@@ -40,7 +40,7 @@ enum Phase {
     Approach(Box<Approach>),
     /// Channels are tried.
     Drive { branches: Box<Branches>, search: Box<EvasionSearch> },
-    /// An arm is told to stay where it is.
+    /// An arm stays where it is.
     Stay(Box<Branches>, SearchExtent),
     /// A way round is planned.
     Round(Box<Branches>, RoundTries),

@@ -64,7 +64,7 @@ pub struct Evasion {
 pub enum EvasionMeans {
     /// Channels, each from its tick on.
     Channels(Vec<(u64, [i16; 2])>),
-    /// An arm that is told to stay where it is.
+    /// An arm stays where it is.
     Standing,
     /// A path of an arm, of this length by its joints, radians, which ends after this tick.
     Path {
@@ -79,7 +79,7 @@ pub enum EvasionMeans {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoEvasion {
-    /// No input of the set avoids it, from this tick on; no earlier one was looked at.
+    /// No input of the set avoids it, from this tick on; none was tried from an earlier one.
     #[error("no input of the set avoids it, from tick {} on", .0.earliest)]
     TooLate(SearchExtent),
     /// The robot stood, so it has no speed to keep.
@@ -107,7 +107,7 @@ pub enum NoEvasion {
 pub struct SearchExtent {
     /// The earliest tick from which it was sought.
     pub earliest: u64,
-    /// The number of branches that were simulated.
+    /// The number of branches that were tried, each counted once.
     pub branches: u64,
     /// The number of ticks of all branches.
     pub ticks: u64,

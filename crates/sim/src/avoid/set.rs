@@ -5,7 +5,7 @@ use crate::run::MAX_CHANNEL;
 /// The greatest number of switches.
 pub const MAX_SWITCHES: u32 = 3;
 
-/// The greatest number of ticks before and after a contact that are looked at: ten minutes.
+/// The greatest number of ticks before a contact, and after it: ten minutes.
 pub const MAX_WINDOW: u64 = 12_000;
 
 /// The greatest number of branches from one tick.
@@ -25,7 +25,7 @@ pub struct EvasionSet {
     pub every: u64,
     /// How many ticks from the contact's on must be free of contact.
     pub horizon: u64,
-    /// How many ticks before the contact are looked at.
+    /// From how many ticks before the contact a way out is sought.
     pub back: u64,
 }
 

@@ -193,7 +193,7 @@ impl<H: Fn(&Recipe) -> bool + Sync, G: Fn() -> bool + Sync> Shrinking<'_, H, G> 
         self.best.config.ticks < before
     }
 
-    /// The first of so many candidates that holds, with its index.
+    /// The first of `count` candidates that holds, with its index.
     fn first(&mut self, count: usize, candidate: impl Fn(usize) -> Option<Recipe> + Sync) -> Option<(usize, Recipe)> {
         let Shrinking { holds, go_on, options, best, .. } = self;
         let left = options.max_tries.saturating_sub(self.tries);
