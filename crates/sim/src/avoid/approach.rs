@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 
 use super::simulated_again::{AddKinds, alone, recorder, without_sensors};
-use super::{AvoidError, ContactEpisode, ContactPartner};
+use super::{AvoidError, ContactEpisode};
 use crate::recording::Recorder;
 use crate::run::{Frame, Recipe};
 
@@ -74,15 +74,6 @@ impl Approach {
         if !touches(self.run.frame()) || before.is_none_or(touches) {
             return Err(AvoidError::NoContact { robot: self.robot.clone(), tick: self.first });
         }
-        let all = self.run.view();
-        let robot = &all[self.id];
-        Ok(ContactEpisode {
-            robot: self.robot.clone(),
-            world: self.recipe.config.worlds[robot.world as usize].name.clone(),
-            number: robot.contacts,
-            first: self.first,
-            ended: None,
-            with: ContactPartner::of(&self.run, robot, &all),
-        })
+        Ok(ContactEpisode::begun(&self.run, self.id))
     }
 }

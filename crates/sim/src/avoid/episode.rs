@@ -2,7 +2,7 @@
 
 use super::ContactPartner;
 use super::simulated_again::{AddKinds, recorder, without_sensors};
-use crate::recording::RunError;
+use crate::recording::{Recorder, RunError};
 use crate::run::Recipe;
 
 /// A contact episode of a robot: ticks in contact, one after the other.
@@ -20,6 +20,22 @@ pub struct ContactEpisode {
     pub ended: Option<u64>,
     /// What the robot meets.
     pub with: ContactPartner,
+}
+
+impl ContactEpisode {
+    /// The contact of the robot with this id that begins in the tick at which a run stands.
+    pub(super) fn begun(run: &Recorder, id: usize) -> Self {
+        let all = run.view();
+        let robot = &all[id];
+        ContactEpisode {
+            robot: robot.name.clone(),
+            world: run.config().worlds[robot.world as usize].name.clone(),
+            number: robot.contacts,
+            first: run.frame().tick,
+            ended: None,
+            with: ContactPartner::of(run, robot, &all),
+        }
+    }
 }
 
 /// The contact episodes of those robots of a run that `wants` takes, in the order in which they begin.
@@ -53,27 +69,15 @@ pub fn contact_episodes_with(
         }
         run.step();
         let states = &run.frame().robots;
-        let changed = wanted.iter().copied().filter(|&id| states[id].in_contact != open[id].is_some());
-        let changed: Vec<(usize, u32)> = changed.map(|id| (id, states[id].contacts)).collect();
-        if changed.is_empty() {
-            continue;
-        }
-        let all = run.view();
-        for (id, number) in changed {
+        let has_changed = |id: &usize| states[*id].in_contact != open[*id].is_some();
+        let changed: Vec<usize> = wanted.iter().copied().filter(has_changed).collect();
+        for id in changed {
             if let Some(episode) = open[id].take() {
                 episodes[episode].ended = Some(tick);
-                continue;
+            } else {
+                open[id] = Some(episodes.len());
+                episodes.push(ContactEpisode::begun(&run, id));
             }
-            let robot = &all[id];
-            open[id] = Some(episodes.len());
-            episodes.push(ContactEpisode {
-                robot: robot.name.clone(),
-                world: recipe.config.worlds[robot.world as usize].name.clone(),
-                number,
-                first: tick,
-                ended: None,
-                with: ContactPartner::of(&run, robot, &all),
-            });
         }
     }
     Ok(Some(episodes))
