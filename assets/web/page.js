@@ -101,6 +101,16 @@ function nudge({ key, shiftKey, ctrlKey, metaKey, altKey }) {
   return true;
 }
 
+let answers; // the timer of what is said of Query's robot once it stands
+/** Says what is true of Query's robot where a key has put it. */
+function tellAnswer() {
+  clearTimeout(answers);
+  answers = setTimeout(() => {
+    const { query } = state;
+    if (query) announce(query.intersects ? "It touches" : `It is free, ${query.distance.toFixed(4)} m away`);
+  }, 400);
+}
+
 const { mirror, at, widgets, twin } = twins({
   container: $("controls"),
   send,
@@ -195,13 +205,13 @@ const hear = {
     const before = state;
     state = message;
     root.dataset.theme = message.theme;
-    if (String(message.query?.coordinates) === String(nudged?.coordinates)) nudged = null;
     if (toSeek !== null && message.notice?.text.startsWith(`${BEFORE}:`)) {
       send({ do: "seek", tick: toSeek });
       toSeek = null;
     }
     if (message.notice?.text !== before?.notice?.text) {
       noticed = performance.now();
+      warn(""); // what the page said of something before
       alarm(message.notice?.error ? message.notice.text : "");
       announce(message.notice?.error ? "" : (message.notice?.text ?? ""));
     }
@@ -211,6 +221,8 @@ const hear = {
       const earlier = before?.robots.find((r) => r.name === robot.name);
       if (earlier && robot.contacts > earlier.contacts) announce(`${robot.name}: contact ${robot.contacts}`);
     }
+    if (nudged && String(message.query?.coordinates) !== String(before?.query?.coordinates)) tellAnswer();
+    if (String(message.query?.coordinates) === String(nudged?.coordinates)) nudged = null;
     if (message.widget !== before?.widget) shown.key(message.widget);
     if (String(message.formulas) !== String(before?.formulas)) shown.formulas(message.formulas);
     shown.light(message.lit);
@@ -218,6 +230,9 @@ const hear = {
   tree(message) {
     mirror(message.widgets);
     look();
+  },
+  lesson({ done, seconds }) {
+    if (done) announce(`The lesson is done, in ${Math.round(seconds)} s`);
   },
   settings({ settings }) {
     store(() => localStorage.setItem(SETTINGS, JSON.stringify(settings)));
@@ -248,7 +263,7 @@ const hear = {
       // where the lab says so itself, in a notice, it is not said again
       setTimeout(() => noticed < at && say(`Copied: ${text.length} characters`), 500);
     } catch {
-      warn("The browser does not let the page copy.");
+      send({ do: "not_copied" }); // in place of what the lab has said
     }
   },
   file: drawn.file,

@@ -31,6 +31,11 @@ export function twins({ container, send, titles, said, leave, nudge }) {
   rail.setAttribute("aria-label", "Widgets");
   rail.hidden = true;
   container.append(rail);
+  let opener = null; // the twin of a menu's or a list's button that was pressed last
+  let others = null; // the layers that there were before it was
+  let opened = null; // the layer of its menu or list, while it is open
+  let isEntered = false; // whether the focus has gone into the list
+  const above = document.createElement("div"); // what is in there, behind the button
   let asked = null; // the twin whose focus the lab has yet to take over
   let follows = false; // whether the focus moves because the lab's has
 
@@ -76,13 +81,24 @@ export function twins({ container, send, titles, said, leave, nudge }) {
       element.classList.remove("typing");
       setTimeout(() => update(own, own.widget)); // what waited for the end of reading
     });
-    if (PRESSED.includes(widget.kind)) control.addEventListener("click", () => act("click"));
-    else if (widget.kind === "check") control.addEventListener("change", () => act("click"));
+    if (PRESSED.includes(widget.kind)) {
+      control.addEventListener("click", () => {
+        const { kind, open, layer } = own.widget;
+        if (layer === undefined && (kind === "combo" || open !== undefined)) {
+          opener = own;
+          others = new Set(told.map((widget) => widget.layer));
+        }
+        act("click");
+        // egui closes a list for a pointer that chooses, and not for a reader who does
+        if (control.role === "option") setTimeout(() => control.isConnected && ["keydown", "keyup"].forEach(escape), 200);
+      });
+    }
+    if (widget.kind === "check") control.addEventListener("change", () => act("click"));
     else if (widget.kind === "field") {
       const commit = () => control.value !== own.widget.value && act("type", control.value);
       control.addEventListener("blur", commit);
       control.addEventListener("keydown", ({ key }) => key === "Enter" && commit());
-    } else {
+    } else if (["slider", "number"].includes(widget.kind)) {
       control.addEventListener("input", () => control.value !== "" && act("set", control.value));
       if (widget.kind === "number") control.addEventListener("keydown", (event) => step(event, own, act));
     }
@@ -103,6 +119,8 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     control.value = Number(to.toPrecision(12));
     act("set", control.value);
   }
+
+  const escape = (type) => send({ do: "key", key: "Escape", pressed: type === "keydown", shift: false });
 
   function forward(event, needed) {
     const name = event.key === " " ? "Space" : event.key;
@@ -205,8 +223,11 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     match((own, w, i) => own.key === named[i]);
     match((own, w) => own.widget.id === w.id && own.widget.kind === w.kind);
     for (const own of free) {
-      if (own.element.contains(document.activeElement)) leave();
+      const isRead = own.element.contains(document.activeElement);
+      const isInside = own.element.parentNode === above && opener.element.isConnected;
       own.element.remove();
+      // out of a menu or a list that closes, the reader comes back to its button
+      if (isRead) isInside ? opener.control.focus({ preventScroll: true }) : leave();
     }
     return found;
   }
@@ -223,25 +244,72 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     return others > 2 ? others : 0;
   }
 
+  /** Whether what is open is a list to choose from. */
+  const isList = () => opener?.widget.kind === "combo";
+
+  /** Puts what is open behind its button, in the order of Tab too, and says what it is. */
+  function open(items) {
+    if (items.length === 0) {
+      isEntered = false;
+      return above.remove();
+    }
+    const place = opener.element.parentNode === container ? opener.element.nextSibling : null;
+    if (!above.isConnected) container.insertBefore(above, place);
+    const name = opener?.control.textContent ?? "";
+    above.setAttribute("role", isList() ? "listbox" : "group");
+    above.setAttribute("aria-label", name);
+    for (const { control, element, widget } of items) {
+      if (control === element) continue;
+      const isOption = isList() && PRESSED.includes(widget.kind);
+      element.setAttribute("role", isOption ? "presentation" : "none");
+      if (isOption) {
+        control.setAttribute("role", "option");
+        control.setAttribute("aria-selected", name.endsWith(`: ${control.textContent}`));
+      }
+    }
+    // a list is entered where it is opened by key, once it can be: in its first frame egui only measures it
+    const options = [...above.querySelectorAll("[role=option]:enabled")];
+    if (isEntered || !isList() || options.length === 0) return;
+    isEntered = true;
+    const chosen = options.find((option) => option.ariaSelected === "true") ?? options[0];
+    if (opener.control === document.activeElement) chosen.focus({ preventScroll: true });
+  }
+
+  above.addEventListener("keydown", (event) => {
+    const by = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity }[event.key];
+    if (by === undefined || ["range", "number", "text"].includes(event.target.type)) return;
+    const items = [...above.querySelectorAll("button, input")].filter((item) => !item.disabled);
+    const at = items.indexOf(event.target) + by;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    items[Number.isFinite(at) ? (at + items.length) % items.length : by < 0 ? 0 : items.length - 1]?.focus({ preventScroll: true });
+  }, { capture: true });
+
   /** Makes the twins those of the canvas's widgets. */
   function mirror(tree) {
     told = tree;
     const widgets = once(tree);
-    const ordered = inOrder(widgets);
+    const layers = widgets.map((widget) => widget.layer).filter((layer) => layer !== undefined);
+    if (!layers.includes(opened)) opened = (others && layers.find((layer) => !others.has(layer))) ?? null;
+    if (opened) others = null;
+    const isInside = (widget) => opened !== null && widget.layer === opened;
+    const ordered = [...inOrder(widgets.filter((widget) => !isInside(widget))), ...widgets.filter(isInside)];
     const onRail = new Set(widgets.slice(0, railed(widgets)));
     rail.hidden = onRail.size === 0;
     const found = known(ordered);
     all = ordered.map((widget) => found.get(widget) ?? make(widget));
     keys(ordered).forEach((key, i) => (all[i].key = key));
     // where the next twin goes: the rail is the container's first
-    const next = new Map([[rail, rail.firstChild], [container, rail.nextSibling]]);
+    const next = new Map([[rail, rail.firstChild], [container, rail.nextSibling], [above, above.firstChild]]);
     for (const [i, own] of all.entries()) {
-      const parent = onRail.has(ordered[i]) ? rail : container;
+      const parent = onRail.has(ordered[i]) ? rail : isInside(ordered[i]) ? above : container;
+      if (next.get(parent) === above) next.set(parent, above.nextSibling);
       // moving an element would take its focus away
       if (own.element !== next.get(parent) && !own.element.contains(document.activeElement)) parent.insertBefore(own.element, next.get(parent));
       if (own.element.parentNode === parent) next.set(parent, own.element.nextSibling);
       update(own, ordered[i]);
     }
+    open(all.filter((own) => isInside(own.widget)));
     follow(widgets.find((w) => w.focus)?.id);
   }
 

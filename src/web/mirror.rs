@@ -34,6 +34,9 @@ pub struct Mirrored {
     /// Its rectangle on the canvas: left, top, width and height, whole points.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub place: Option<[i32; 4]>,
+    /// The number of the layer above the rest that it lies in: a menu's, a list's, a notice's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub layer: Option<String>,
     /// Whether it has the focus in the canvas.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub focus: bool,
@@ -68,15 +71,25 @@ pub enum ControlKind {
 pub fn mirror(update: &TreeUpdate) -> Vec<Mirrored> {
     let find = |id: NodeId| update.nodes.iter().find(|(n, _)| *n == id).map(|(_, node)| node);
     let mut found = Vec::new();
-    let Some(root) = update.tree.as_ref().map(|t| t.root) else { return found };
-    let mut open = vec![root];
-    while let Some(id) = open.pop() {
-        let Some(node) = find(id) else { continue };
-        let labels = node.labelled_by().iter().filter_map(|l| find(*l)).filter_map(|l| l.value().or(l.label()));
-        found.extend(mirrored(id, node, labels.collect::<Vec<_>>().join(" "), update.focus == id));
-        // the text runs of a field repeat its value
-        if node.role() != Role::TextInput {
-            open.extend(node.children().iter().rev());
+    let Some(root) = update.tree.as_ref().and_then(|t| find(t.root)) else { return found };
+    // the layer at the bottom is the first in which there is anything
+    let mut bottom = None;
+    for layer in root.children() {
+        let before = found.len();
+        let mut open = vec![*layer];
+        while let Some(id) = open.pop() {
+            let Some(node) = find(id) else { continue };
+            let labels = node.labelled_by().iter().filter_map(|l| find(*l)).filter_map(|l| l.value().or(l.label()));
+            let mirrored = mirrored(id, node, labels.collect::<Vec<_>>().join(" "), update.focus == id);
+            let number = bottom.is_some().then(|| layer.0.to_string());
+            found.extend(mirrored.map(|mirrored| Mirrored { layer: number, ..mirrored }));
+            // the text runs of a field repeat its value
+            if node.role() != Role::TextInput {
+                open.extend(node.children().iter().rev());
+            }
+        }
+        if found.len() > before {
+            bottom = bottom.or(Some(layer));
         }
     }
     found
@@ -126,6 +139,7 @@ fn mirrored(id: NodeId, node: &Node, labels: String, focus: bool) -> Option<Mirr
         open: node.is_expanded(),
         off_limits: node.is_disabled(),
         live: node.live().is_some_and(|l| l != Live::Off),
+        layer: None,
         place: node.bounds().map(|b| [b.x0, b.y0, b.width(), b.height()].map(|x| x.round() as i32)),
         focus,
     })
@@ -146,7 +160,7 @@ mod tests {
     #[test]
     fn widgets_come_in_reading_order_with_what_a_control_needs() {
         let nodes = [
-            (0, node(Role::Window, |n| n.set_children([4, 1].map(NodeId::from)))),
+            (0, node(Role::Window, |n| n.set_children([99, 4, 1].map(NodeId::from)))),
             (1, node(Role::GenericContainer, |n| n.set_children([2, 3, 9, 11, 12, 13].map(NodeId::from)))),
             (
                 2,
@@ -219,7 +233,11 @@ mod tests {
         assert_eq!([3, 5].map(|i| found[i].value.as_deref()), [Some("2005"), Some("Lot")]);
         assert_eq!(
             serde_json::to_string(&found[1]).unwrap(),
-            r#"{"id":"2","kind":"button","name":"Play","place":[1,2,40,28],"focus":true}"#
+            r#"{"id":"2","kind":"button","name":"Play","place":[1,2,40,28],"layer":"1","focus":true}"#
         );
+        // one more layer in which there is nothing, as an empty tooltip
+        let layers: Vec<Option<&str>> = found.iter().map(|widget| widget.layer.as_deref()).collect();
+        assert_eq!(layers[0], None, "what lies at the bottom");
+        assert!(layers[1..].iter().all(|layer| *layer == Some("1")), "{layers:?}");
     }
 }

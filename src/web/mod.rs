@@ -18,4 +18,6 @@ mod runs;
 #[cfg(all(target_family = "wasm", feature = "web"))]
 mod page;
 
-pub use link::{LINK_VERSION, LINK_VERSION_WITH_INPUTS, Link, LinkError, MAX_LINK, MAX_LINK_TICK};
+pub use link::{
+    LINK_VERSION, LINK_VERSION_WITH_FILES, LINK_VERSION_WITH_INPUTS, Link, LinkError, MAX_LINK, MAX_LINK_TICK, ReadLink,
+};

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use wasm_bindgen::prelude::*;
 
-use super::link::Link;
+use super::link::{Link, ReadLink};
 use motion_lab_core::picture::Theme;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
@@ -133,8 +133,12 @@ pub fn record_digests(parts: &str) -> Result<Vec<u8>, JsError> {
 /// The reason, when a field is refused.
 #[wasm_bindgen]
 pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
-    let link = Link::parse(query).map_err(error)?;
-    written(&link.recipe(), LogKind::Digests).map_err(error)
+    let ReadLink { link, run, .. } = Link::read(query);
+    run.map_err(error)?;
+    let mut recipe = link.recipe();
+    // what comes later is no part of the run up to the link's tick
+    recipe.script.truncate_after(recipe.config.ticks);
+    written(&recipe, LogKind::Digests).map_err(error)
 }
 
 /// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or

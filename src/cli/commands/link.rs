@@ -13,8 +13,9 @@ use crate::cli::{Data, Failure, Outcome, say};
 /// Print the address that shows a recorded run in a browser, at its last tick
 ///
 /// The address holds seed, worlds and script, and the page simulates the run again: it compares the digest, which is in
-/// the address too, and says whether it is the same run. A run with a world, a robot or a sensor that is not the lab's
-/// own fits in no address, nor does one of more than an hour or with a very long script.
+/// the address too, and says whether it is the same run. Worlds and a range sensor of one's own are in the address, in
+/// which names have at most 32 characters. A run of more than an hour, or with a very large world or a very long
+/// script, fits in none.
 #[derive(Debug, Args)]
 #[command(
     verbatim_doc_comment,

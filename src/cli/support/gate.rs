@@ -288,7 +288,9 @@ fn is_log(path: &Path) -> bool {
     use std::io::Read;
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
-    read.is_ok() && head.len() >= 8 && !matches!(Log::read_mcap(&head), Err(LogError::NotALog | LogError::Export))
+    read.is_ok()
+        && head.len() >= 8
+        && !matches!(Log::read_mcap(&head), Err(LogError::NotALog | LogError::Export | LogError::Page(_)))
 }
 
 #[cfg(test)]

@@ -121,6 +121,7 @@ fn refused(path: &Path, error: &LogError) -> Failure {
     let file = shown(path);
     let next = match error {
         LogError::NotALog => "Name a file that `motion-lab record -o` wrote.".to_owned(),
+        LogError::Page(_) => "Name a page that *Save as page* of the lab wrote, or a log.".to_owned(),
         LogError::Export => "Name the log that it was exported from.".to_owned(),
         LogError::Version(_) => "Read it with the motion-lab that wrote it.".to_owned(),
         LogError::NoFrames => format!("Make the frames from it: motion-lab replay {file} --log full -o FULL.mcap"),

@@ -1,5 +1,8 @@
 //! Links read back as written, whatever is in them; hostile ones are refused by name.
 
+use percent_encoding::utf8_percent_encode;
+
+use super::limits::{ESCAPED, MAX_NAME};
 use super::*;
 use motion_lab_sim::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
 
@@ -14,11 +17,16 @@ fn driven() -> Script {
     Script::new(events, vec![])
 }
 
+fn built_in(names: &[&str]) -> Vec<World> {
+    names.iter().map(|name| World::built_in(name).unwrap()).collect()
+}
+
 #[test]
 fn a_link_reads_back_as_it_was_written() {
     let link = Link {
         seed: Seed(u64::MAX),
-        worlds: vec!["lot".into(), "workbench".into()],
+        worlds: built_in(&["lot", "workbench"]),
+        sensor: TourConfig::default().sensor,
         tick: 600,
         widget: Some(Widget::Atlas),
         lesson: Some(Lesson::of("pick_wall").unwrap()),
@@ -51,14 +59,67 @@ fn a_run_becomes_the_link_that_runs_it_again() {
     let recipe = Recipe::new(config.clone(), (Seed(3), driven()));
     let link = Link::of(&recipe).unwrap();
     assert_eq!(link.recipe(), recipe);
-    let lot = Link { worlds: vec!["lot".into()], tick: 5, ..Link::default() };
+    let lot = Link { worlds: built_in(&["lot"]), tick: 5, ..Link::default() };
     assert_eq!(Link::of(&lot.recipe()).unwrap(), lot);
-    let mut edited = config.clone();
-    edited.worlds[1].robots.clear();
-    let refused = Link::of(&Recipe::new(edited, Seed(3))).unwrap_err();
-    assert_eq!(refused, LinkError::World("Workbench".into()));
     let long = TourConfig { ticks: MAX_LINK_TICK + 1, ..config };
     assert!(matches!(Link::of(&Recipe::new(long, Seed(3))), Err(LinkError::Number { field: "tick", .. })));
+}
+
+#[test]
+fn a_run_of_worlds_and_a_sensor_of_its_own_fits_in_an_address() {
+    let mut config = TourConfig { ticks: 77, ..TourConfig::default() };
+    assert!(Link::of(&Recipe::new(config.clone(), Seed(3))).unwrap().query().unwrap().starts_with("v=1&seed=3&tick"));
+    config.sensor = Some(RangeSensor { n_rays: 7, max_range: 0.1 + 0.2 });
+    let seven = Link::of(&Recipe::new(config.clone(), Seed(3))).unwrap();
+    assert_eq!(seven.query().unwrap(), "v=3&seed=3&sensor=7,0.30000000000000004&tick=77");
+    // a path of the plan is played by a robot alone in its world, which sees nothing
+    config.worlds[1].robots.clear();
+    config.sensor = None;
+    let recipe = Recipe::new(config, (Seed(3), driven()));
+    let link = Link::of(&recipe).unwrap();
+    let query = link.query().unwrap();
+    assert!(query.starts_with("v=3&seed=3&file=World(%0A") && query.contains("&sensor=none&"), "{query}");
+    for read in [Link::parse(&query).unwrap(), Link::parse(&format!("#{query}")).unwrap()] {
+        assert_eq!(read.recipe(), recipe);
+    }
+    // a single world, and in another order than theirs
+    let worlds = recipe.config.worlds.iter().rev().cloned().collect();
+    let turned = Recipe::new(TourConfig { worlds, ..TourConfig::clone(&recipe.config) }, Seed(3));
+    assert_eq!(Link::parse(&Link::of(&turned).unwrap().query().unwrap()).unwrap().recipe(), turned);
+}
+
+#[test]
+fn a_name_in_a_link_is_too_short_for_a_sentence() {
+    let named = |length: usize| {
+        let mut world = World::built_in("lot").unwrap();
+        world.obstacles[0].name = "x".repeat(length);
+        world
+    };
+    let of = |world: World| Recipe::new(TourConfig { worlds: vec![world], ..TourConfig::default() }, Seed(1));
+    let longest = Link::of(&Recipe {
+        config: TourConfig { ticks: 1, ..TourConfig::clone(&of(named(MAX_NAME)).config) }.into(),
+        ..of(named(MAX_NAME))
+    })
+    .unwrap();
+    assert_eq!(Link::parse(&longest.query().unwrap()).unwrap(), longest);
+    let said = "file: the name \"xxxxxxxxxxxx...\" has more than 32 characters: save the run as a file instead";
+    assert_eq!(Link::of(&of(named(MAX_NAME + 1))).unwrap_err().to_string(), said);
+    let forged = utf8_percent_encode(&named(MAX_NAME + 1).to_ron(), ESCAPED).to_string();
+    assert_eq!(Link::parse(&format!("v=3&file={forged}")).unwrap_err().to_string(), said);
+}
+
+#[test]
+fn a_wrong_field_of_what_to_show_costs_no_run_and_a_wrong_run_not_what_to_show() {
+    let ReadLink { link, run, view } = Link::read("seed=11&widget=moon&tab=swept&theme=pink&lesson=pick_wall&q=1;2");
+    assert_eq!((run, link.seed), (Ok(()), Seed(11)));
+    assert_eq!(view.unwrap_err().to_string().split(": ").next(), Some("widget"), "the first that is wrong");
+    assert_eq!((link.widget, link.tab, link.theme, &*link.q), (None, Some(Tab::Swept), None, &[][..]));
+    assert_eq!(link.lesson, Lesson::of("pick_wall"));
+    // half a run would be another one
+    let ReadLink { link, run, view } = Link::read("seed=11&tick=9x&widget=atlas&theme=dark");
+    assert_eq!((link.seed, link.tick, view), (BOOK_SEED, 0, Ok(())));
+    assert!(run.unwrap_err().to_string().starts_with("tick: "));
+    assert_eq!((link.widget, link.theme), (Some(Widget::Atlas), Some(ThemeChoice::Dark)));
 }
 
 #[test]
@@ -83,7 +144,14 @@ fn long_links_hold_a_thousand_inputs_and_short_ones_are_read_by_every_version() 
 #[test]
 fn hostile_values_are_refused_by_name() {
     let said = |query: &str| Link::parse(query).unwrap_err().to_string();
-    assert_eq!(said("v=3&seed=x"), "v: this lab reads links of version 1 and 2, not \"3\"");
+    assert_eq!(said("v=4&seed=x"), "v: this lab reads links of versions 1 to 3, not \"4\"");
+    for wrong in ["7", "7,x", "-1,4", "7,4,4", "None", ""] {
+        assert!(
+            said(&format!("sensor={wrong}")).starts_with("sensor: it must be none, or a number of rays"),
+            "{wrong}"
+        );
+    }
+    assert!(said("file=World(").starts_with("file: line:1:"), "{}", said("file=World("));
     assert!(said("seed=-1").starts_with("seed: it must be a whole number up to 1844"));
     assert!(said("seed=18446744073709551616").ends_with("not \"184467440737...\""));
     assert_eq!(said("tick=72001"), "tick: it must be a whole number up to 72000, not \"72001\"");
@@ -114,7 +182,9 @@ fn hostile_values_are_refused_by_name() {
 #[test]
 fn a_refusal_says_nothing_in_the_words_of_the_link() {
     let scam = "Your session has expired, sign in at evil.example";
-    for field in ["v", "seed", "tick", "world", "widget", "lesson", "theme", "script", "inputs", "digest"] {
+    for field in
+        ["v", "seed", "tick", "world", "file", "sensor", "widget", "lesson", "theme", "script", "inputs", "digest"]
+    {
         let query = format!("{field}={}", utf8_percent_encode(scam, ESCAPED));
         let said = Link::parse(&query).unwrap_err().to_string();
         assert!(said.starts_with(&format!("{field}: ")), "{said}");

@@ -153,8 +153,12 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
                 found.ok_or_else(|| PageError::Role(name.to_owned()))
             };
             let role = role.as_deref().map(named).transpose()?;
-            ui(world, &|ui| ui.page_lit = role)
+            ui(world, &|ui| ui.page_lit = role.map(|role| (ui.widget, role)))
         }
+        Message::NotCopied => ui(world, &|ui| {
+            let text = "not copied: the browser does not let the page copy".to_owned();
+            ui.say(Notice { text, is_error: true });
+        }),
         Message::Play => transport(world, TransportCommand::Play),
         Message::Pause => transport(world, TransportCommand::Pause),
         Message::Step => transport(world, TransportCommand::Step),

@@ -37,15 +37,18 @@ pub fn take_all() -> Vec<Incoming> {
     INBOX.take()
 }
 
-/// Puts something in. Returns whether there was room.
+/// Puts something in. Returns whether there was room. The first after a frame asks for one, which takes the others too:
+/// the browser's event loop keeps whatever wakes it, and a page around may send without end.
 pub fn put(incoming: Incoming) -> bool {
-    let has_room = INBOX.with_borrow_mut(|inbox| {
-        let has_room = inbox.len() < MAX_WAITING;
-        inbox.extend(has_room.then_some(incoming));
-        has_room
+    let before = INBOX.with_borrow_mut(|inbox| {
+        let before = inbox.len();
+        inbox.extend((before < MAX_WAITING).then_some(incoming));
+        before
     });
-    wake();
-    has_room
+    if before == 0 {
+        wake();
+    }
+    before < MAX_WAITING
 }
 
 /// Asks for another frame: a paused lab sleeps.

@@ -19,7 +19,7 @@ use super::listener::{listen, tell};
 use super::message::{Message, PageRequest};
 use super::report::{LinkedTheme, Sent, report};
 use super::run_link::open_link;
-use crate::web::link::{Link, LinkError, requoted};
+use crate::web::link::{Link, ReadLink, requoted};
 use crate::window::for_page::{Interface, limit, windowed_app};
 use crate::window::ui::{Notice, Settings};
 use motion_lab_core::configuration::Configuration as _;
@@ -46,7 +46,7 @@ thread_local! {
 /// is called with JSON, and with bytes where a file goes with it.
 #[wasm_bindgen]
 pub fn lab_start(query: &str, embedded: bool, settings: &str, listener: js_sys::Function) {
-    let link = Link::parse(query);
+    let link = Link::read(query);
     listen(listener);
     let mut app = windowed_app(add_plugins);
     // Bevy has set a hook of its own by now
@@ -118,17 +118,16 @@ fn take_in(incoming: Incoming) -> Result<(), JsError> {
 /// The arguments of `lab_start`, kept for the start of the app.
 #[derive(Resource)]
 struct StartArguments {
-    link: Result<Link, LinkError>,
+    link: ReadLink,
     embedded: bool,
     settings: Settings,
 }
 
 fn start(world: &mut World) {
     let Some(StartArguments { link, embedded, settings }) = world.remove_resource() else { return };
-    let (link, mut refused) = match link {
-        Ok(link) => (link, None),
-        Err(error) => (Link::default(), Some(Notice { text: format!("the link: {error}"), is_error: true })),
-    };
+    let ReadLink { link, run, view } = link;
+    let refused = run.and(view).err();
+    let mut refused = refused.map(|error| Notice { text: format!("the link: {error}"), is_error: true });
     if let Some(proxy) = world.get_resource::<EventLoopProxyWrapper>() {
         let proxy = (**proxy).clone();
         // it fails only when the lab has ended

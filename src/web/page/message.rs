@@ -53,6 +53,8 @@ pub enum Message {
         /// Its name, as in the colour key's classes.
         role: Option<String>,
     },
+    /// The browser refuses what was to be copied.
+    NotCopied,
     /// Play the run.
     Play,
     /// Pause the run.

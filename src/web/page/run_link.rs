@@ -10,7 +10,7 @@ use motion_lab_core::configuration::Configuration as _;
 use motion_lab_sim::anatomy::Anatomy;
 use motion_lab_sim::manifest::{ThemeChoice, Widget};
 use motion_lab_sim::run::Digest;
-use motion_lab_sim::simulation::{Playback, Transport, seek};
+use motion_lab_sim::simulation::{Playback, Transport, recipe, seek};
 
 /// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
 pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, SessionError> {
@@ -44,6 +44,10 @@ pub fn link_of(world: &World) -> Result<Link, PageError> {
     let tick = world.resource::<Transport>().tick();
     let run = shown_run(world, tick);
     let mut link = Link::of(&run.recipe)?;
+    if let Some(present) = recipe(world) {
+        // with the inputs to come: without them it would be another run that goes on from here
+        link.script = present.script;
+    }
     if tick > 0 {
         link.digest = Some(digest_at(world, tick)?.to_string());
     }

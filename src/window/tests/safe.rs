@@ -85,7 +85,7 @@ fn pointing_at_the_drawing_or_the_words_under_it_fades_nothing() {
 fn nothing_fades_while_a_robot_is_in_hand_a_drag_or_a_refusal_is_on() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
-    ui(&mut harness, |ui| ui.page_lit = Some(Role::Obstacle));
+    ui(&mut harness, |ui| ui.page_lit = Some((ui.widget, Role::Obstacle)));
     harness.run_steps(10);
     assert_eq!(lit(&harness), Some(Role::Obstacle), "what the page points at");
     arm_rusty(&mut harness);
@@ -102,6 +102,9 @@ fn nothing_fades_while_a_robot_is_in_hand_a_drag_or_a_refusal_is_on() {
     assert_eq!(lit(&harness), None, "a drag");
     pointer(&mut harness, handle, Some(false));
     click(&mut harness, "Atlas");
+    harness.run_steps(10);
+    assert_eq!(lit(&harness), None, "what a page lit in another widget");
+    ui(&mut harness, |ui| ui.page_lit = Some((ui.widget, Role::Obstacle)));
     harness.run_steps(10);
     assert_eq!(lit(&harness), Some(Role::Obstacle));
     ui(&mut harness, |ui| ui.atlas.ask(motion_lab_core::geometry::Point2::new(6.0, 6.75), None, true));

@@ -87,8 +87,9 @@ pub struct UiState {
     pub dialog: bool,
     /// The role that is lit: all others fade.
     pub lit: Option<Role>,
-    /// The role that the surrounding page asks to light. It counts only while nothing here is pointed at.
-    pub page_lit: Option<Role>,
+    /// The role that the surrounding page asks to light, and in which widget. It counts only while nothing here is
+    /// pointed at.
+    pub page_lit: Option<(Widget, Role)>,
     /// Whether the lab is embedded in another page: it shows one widget and no rail.
     pub embedded: bool,
     /// The role that is pointed at in this frame.

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use base64::prelude::{BASE64_STANDARD, Engine};
 use motion_lab::run::Log;
 
 use crate::cli::{Run, json, run_in, sealed};
@@ -206,11 +207,20 @@ fn a_log_passes_when_its_script_does_and_a_forged_one_never() {
     assert!(reason.starts_with(&format!("the run digest is {held}, expected {digest}: ")), "{reason}");
     assert_eq!(rows[2]["refused"], "no log: --expect asks for one with this run digest");
 
+    // as a page that holds it
+    let page = format!(
+        "<!doctype html><script type=\"text/plain\" id=\"bytes\">{}</script>",
+        BASE64_STANDARD.encode(seal(&log))
+    );
+    fs::write(folder.path().join("run.html"), page).unwrap();
+    assert_eq!(json(&graded(folder.path(), &["run.html"]).done())["points"], passed["points"]);
+
     // cut, and not sealed
     let bytes = seal(&log);
     fs::write(folder.path().join("cut.mcap"), &bytes[..bytes.len() - 2000]).unwrap();
     let cut = json(&graded(folder.path(), &["cut.mcap"]).out);
     assert!(cut["refused"].as_str().unwrap().contains("cut off"), "{cut}");
+    assert!(cut["points"].is_null(), "what can't be read is not graded: {cut}");
 
     // an honest run from another start
     let arguments =

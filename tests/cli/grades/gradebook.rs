@@ -232,7 +232,7 @@ fn folders_and_patterns_stand_for_submissions_and_a_missing_file_is_one_row() {
     let reason = |row: usize| rows[row]["refused"].as_str().unwrap();
     assert_eq!([reason(0), reason(3)], ["there is no such file"; 2]);
     assert_eq!(reason(2), "no script, log or table is in this folder");
-    assert_eq!((&rows[0]["points"], &rows[0]["max_points"]), (&0.0.into(), &1.0.into()));
+    assert_eq!((&rows[0]["points"], &rows[0]["max_points"]), (&serde_json::Value::Null, &1.0.into()));
 }
 
 #[test]
@@ -249,7 +249,7 @@ fn a_gradebook_has_a_row_for_each_submission() {
             "submission,passed,points,max_points,seeds_passed,seeds,seed,verdict,tick,contacts,reversals,metres,radians,refused",
             "\"a, b.ron\",true,7,7,2,2,1,passed,12,0,0,0.1000,0.0000,",
             "'=away.ron,false,0,7,0,2,1,missed the goal,60,0,0,0.7000,0.0000,",
-            "nobody.ron,false,0,7,0,2,,,,,,,,there is no such file",
+            "nobody.ron,false,,7,0,2,,,,,,,,not graded: there is no such file",
         ]
     );
     let columns = |line: &str| line.replace("a, b", "a").split(',').count();
@@ -268,7 +268,7 @@ fn gradescope_gets_its_results() {
         let graded = run_in(folder.path(), &["grade", "--format", "gradescope", "exam.ron", submission]);
         (graded.code, json(&graded.out))
     };
-    for (submission, code, score) in [("good.ron", 0, 7.0), ("idle.ron", 4, 0.0), ("nobody.ron", 3, 0.0)] {
+    for (submission, code, score) in [("good.ron", 0, 7.0), ("idle.ron", 4, 0.0)] {
         let (ended, results) = results(submission);
         assert_eq!((ended, results["score"].as_f64()), (Some(code), Some(score)), "{submission}");
         let tests = results["tests"].as_array().unwrap();
@@ -283,6 +283,11 @@ fn gradescope_gets_its_results() {
         let keys: Vec<&String> = results.as_object().unwrap().keys().collect();
         assert_eq!(keys, ["output", "score", "tests"]);
     }
+    // a score of 0 would be a verdict
+    let (ended, nobody) = results("nobody.ron");
+    assert_eq!((ended, nobody["tests"].as_array().unwrap().len()), (Some(3), 0));
+    assert_eq!(nobody["output"], "not graded: there is no such file");
+    assert!(nobody.get("score").is_none(), "{nobody}");
     let many =
         run_in(folder.path(), &["grade", "--format", "gradescope", "exam.ron", "good.ron", "idle.ron"]).failed(2);
     assert!(many.contains("2 submissions"), "{many}");

@@ -34,14 +34,34 @@ fn the_address_of_a_run_is_that_run_with_its_digest() {
 }
 
 #[test]
+fn a_run_of_a_world_and_a_sensor_of_ones_own_has_an_address() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (yard, log) = (path("yard.ron"), path("run.mcap"));
+    fs::write(&yard, run(&["world", "show", "apartment"]).done().replace("name: \"Apartment\"", "name: \"My flat\""))
+        .unwrap();
+    let with = ["record", "--world", &yard, "--rays", "5", "--ticks", "30", "--json", "-o", &log];
+    let digest = json(&run(&with).done())["digest"].as_str().unwrap().to_owned();
+    let said = run(&["link", &log]).done();
+    let query = said.trim_end().split_once(['?', '#']).unwrap().1;
+    assert!(query.contains("&sensor=5,") && query.ends_with(&format!("&digest={digest}")), "{said}");
+    let again = Run::record_recipe(Link::parse(query).unwrap().recipe(), LogKind::Frames, |_| {}).unwrap();
+    assert_eq!(again.digest().unwrap().to_string(), digest);
+}
+
+#[test]
 fn a_run_that_fits_in_no_address_is_refused_and_an_unfinished_one_has_no_digest() {
     let folder = tempfile::tempdir().unwrap();
     let path = |name: &str| folder.path().join(name).display().to_string();
     let log = path("run.mcap");
-    run(&["record", "--ticks", "30", "--rays", "5", "-o", &log]).done();
+    let yard = path("yard.ron");
+    let name = "a name that is as long as a whole sentence";
+    let text = run(&["world", "show", "lot"]).done();
+    fs::write(&yard, text.replace("name: \"Lot\"", &format!("name: {name:?}"))).unwrap();
+    run(&["record", "--world", &yard, "--ticks", "30", "-o", &log]).done();
     let refused = run(&["link", &log]);
     assert_eq!((refused.code, &*refused.out), (Some(3), ""));
-    assert!(refused.err.contains("run.mcap: the run's range sensor is not the lab's usual one"), "{}", refused.err);
+    assert!(refused.err.contains("run.mcap: file: the name \"a name that ...\" has more than 32"), "{}", refused.err);
     let none = run(&["link", &path("none.mcap")]);
     assert!(none.code == Some(3) && none.err.contains("none.mcap"), "{}", none.err);
     let place = run(&["link", &log, "--site", "example.org"]);

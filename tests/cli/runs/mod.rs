@@ -9,6 +9,7 @@ pub mod link;
 pub mod progress;
 pub mod record;
 pub mod replay;
+mod saved_pages;
 pub mod sealed_digests;
 pub mod shrink;
 pub mod stats;

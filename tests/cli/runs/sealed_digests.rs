@@ -20,6 +20,9 @@ fn recorded(folder: &Path) -> (Log, Digest) {
     (log, digest)
 }
 
+const EXAM: &str = r#"Assignment(version: 1, world: "lot", robot: "Hitch",
+    goal: (at: [7.5, 2.5, 0, 0], within: [0.1, 0.1, 0.1, 0.1]), limits: (ticks: 20), seeds: [1])"#;
+
 /// A change of a run that changes no frame of it.
 type Change = fn(&mut TourConfig);
 
@@ -77,6 +80,11 @@ fn a_log_whose_settings_were_changed_is_refused_by_the_digest_in_its_end() {
         let report = json(&run_in(folder.path(), &["verify", "--json", "forged.mcap"]).out);
         assert_eq!((&report["identical"], &report["sealed_digest"]), (&20.into(), &digest.to_string().into()));
         assert!(report["divergence"].as_str().unwrap().starts_with(&said), "{what}: {report}");
+        // a log of another world would be refused all the same: what counts is that it is called forged
+        fs::write(folder.path().join("exam.ron"), EXAM).unwrap();
+        let graded = json(&run_in(folder.path(), &["grade", "--json", "exam.ron", "forged.mcap"]).out);
+        assert_eq!((&graded["forged_at"], &graded["points"]), (&0.into(), &0.0.into()), "{what}: {graded}");
+        assert!(graded["refused"].as_str().unwrap().contains("was changed after it was recorded"), "{what}: {graded}");
         // nothing else takes it, nor makes an honest one of it
         for command in [&["info", "forged.mcap"][..], &["stats", "forged.mcap"], &["record", "--resume", "forged.mcap"]]
         {
@@ -95,6 +103,9 @@ fn a_forged_frame_is_named_before_the_digest() {
     let verified = run_in(folder.path(), &["verify", "forged.mcap"]);
     assert_eq!(verified.code, Some(4));
     assert!(verified.out.starts_with("tick 17, robot 0, contacts: "), "{}", verified.out);
+    fs::write(folder.path().join("exam.ron"), EXAM).unwrap();
+    let graded = json(&run_in(folder.path(), &["grade", "--json", "exam.ron", "forged.mcap"]).out);
+    assert_eq!(graded["forged_at"], 17, "{graded}");
 }
 
 #[test]

@@ -3,6 +3,9 @@
 use std::fs;
 use std::path::Path;
 
+use motion_lab::recording::Run;
+use motion_lab::run::LogKind;
+use motion_lab::web::Link;
 use motion_lab::worlds::World;
 
 use crate::cli::{json, run, run_in, run_with};
@@ -31,7 +34,14 @@ fn what_is_left_shows_it_verifies_and_is_said() {
     let folder = folder();
     let at = folder.path();
     let shrunk = run_in(at, &["shrink", "run.mcap", "--while", "Hitch.refusals > 0"]);
-    assert!(shrunk.err.contains("wrote run.shrunk.mcap") && shrunk.err.contains("it has no link: "), "{}", shrunk.err);
+    assert!(shrunk.err.contains("wrote run.shrunk.mcap"), "{}", shrunk.err);
+    // what was taken out of the world is not in the address either
+    let link = shrunk.out.lines().last().unwrap();
+    assert!(link.starts_with("http://localhost:8000/?v=3&seed=2005&file=World("), "{link}");
+    let again =
+        Run::record_recipe(Link::parse(link.split_once('?').unwrap().1).unwrap().recipe(), LogKind::Frames, |_| {});
+    let digest = format!("\ndigest {}\n", again.unwrap().digest().unwrap());
+    assert!(shrunk.out.contains(&digest), "{digest}{}", shrunk.out);
     let rows: Vec<Vec<&str>> = shrunk.out.lines().map(|line| line.split_whitespace().collect()).collect();
     for (name, before, after) in
         [("worlds", "3", "1"), ("robots", "3", "1"), ("events", "4", "1"), ("seconds", "2.00", "0.15")]

@@ -119,6 +119,30 @@ lab("a page around presses nothing, hears nothing of the reader's, and one origi
   assert.equal(await frame.evaluate(() => window.received.state.seed), "11", "another origin's message is not heard");
 }, elsewhere);
 
+lab("a page that floods a playing frame is refused what has no room, and the lab lives", "/widgets.html", async ({ page }) => {
+  const [frame] = await around(page, [""]);
+  await page.evaluate(() => {
+    window.refused = 0;
+    window.heard = [];
+    addEventListener("message", ({ data }) => {
+      if (data.motionLab?.kind === "error") window.refused += /has not read what came before/.test(data.motionLab.text);
+      else if (data.motionLab) window.heard.push(data.motionLab);
+    });
+  });
+  const playing = await frame.evaluate(() => window.received.state);
+  assert.ok(playing.playing, "it plays by itself");
+  await page.evaluate(() => {
+    for (let i = 0; i < 100000; i++) frames[0].postMessage({ motionLab: { do: "light", role: i % 2 ? "robot" : "obstacle" } }, "*");
+  });
+  await page.waitForFunction(() => window.refused > 1000, null, { timeout: 60000 });
+  // what comes when there is room is done
+  await page.waitForFunction(() => {
+    frames[0].postMessage({ motionLab: { do: "seed", seed: "11" } }, "*");
+    return window.heard.some((m) => m.kind === "state" && m.seed === "11" && m.tick > 5);
+  }, null, { timeout: 120000, polling: 1000 });
+  assert.ok(await frame.isHidden("#overlay"), "it has not stopped");
+}, elsewhere);
+
 lab("a page around asks Query, drives, puts and lets go robots, and closes doors", "/widgets.html", async ({ page }) => {
   const [frame] = await around(page, [""]);
   await page.evaluate(() => {

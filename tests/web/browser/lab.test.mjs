@@ -425,6 +425,8 @@ lab("a saved page verifies from disk, without a server, and tells a forged run",
   console.log(`# the page has ${html.length} bytes`);
   const file = join(shots, "run.html");
   writeFileSync(file, html);
+  // the program reads it as it reads a log
+  assert.match(native("verify", file), new RegExp(/Its digest was ([0-9a-f]{32})/.exec(html)[1]));
   const read = async (address) => {
     const page = await Lab.open(`file://${address}`, { wait: false });
     await page.page.waitForFunction(() => document.documentElement.dataset.verdict, null, { timeout: 30000 });
@@ -751,4 +753,55 @@ test("without script the page shows its pictures and words", { timeout: 60000 },
   }
   await lab.shot("without-script");
   assert.deepEqual(await lab.close(), []);
+});
+
+lab("a wrong field of what to show costs no run, and what a page lights goes out with its widget", "/?seed=11&tick=40&widget=moon&theme=dark", async (lab) => {
+  const { notice } = await lab.until((s) => s.notice && s.tick === 40);
+  assert.match(notice.text, /^the link: widget: it must be one of dashboard/);
+  const { seed, theme } = await lab.state();
+  assert.deepEqual([seed, theme], ["11", "dark"]);
+  await lab.send({ do: "light", role: "obstacle" });
+  await lab.until((s) => s.lit === "obstacle");
+  await lab.send({ do: "widget", id: "atlas" });
+  await lab.until((s) => s.widget === "atlas" && s.lit === null);
+});
+
+lab("the link of a log that was opened is its run, with the inputs to come", "/", async (lab) => {
+  const [log, script] = [join(shots, "driven.mcap"), join(shots, "driven.ron")];
+  rmSync(log, { force: true });
+  writeFileSync(script, 'Script(version: 1, events: [(tick: 20, robot: "Rusty", input: Drive(128, 9))])');
+  const { digest } = JSON.parse(native("record", "--seed", "11", "--ticks", "60", "--script", script, "--json", "-o", log));
+  const bytes = readFileSync(log).toString("base64");
+  await lab.page.evaluate((text) => {
+    const file = new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], "driven.mcap");
+    return window.motionLab.open(file);
+  }, bytes);
+  await lab.until((s) => s.notice?.text.startsWith("driven.mcap"));
+  const link = () =>
+    lab.page.evaluate(() => new Promise((done) => {
+      addEventListener("motionlab", ({ detail }) => detail.kind === "link" && done(detail));
+      window.motionLab.send({ do: "link" });
+    }));
+  assert.equal((await lab.state()).tick, 0, "it is shown at its start");
+  const { query } = await link();
+  assert.match(query, /^v=1&seed=11&script=Script\(/);
+  // whoever plays it from there has the same run
+  const other = await Lab.open(`/?${query}`);
+  await other.send({ do: "pause" });
+  await other.until((s) => !s.playing);
+  await other.send({ do: "seek", tick: 60 });
+  await other.until((s) => s.tick === 60);
+  await other.page.evaluate(() => void (window.told = new Promise((done) => addEventListener("motionlab", ({ detail }) => detail.kind === "link" && done(detail)))));
+  await other.send({ do: "link" });
+  assert.equal((await other.page.evaluate(() => window.told)).digest, digest);
+  assert.deepEqual(await other.close(), []);
+});
+
+lab("what the browser does not copy is said once, and not to be copied", "/?widget=anatomy", async (lab) => {
+  await lab.page.evaluate(() => (navigator.clipboard.writeText = () => Promise.reject(new Error("no"))));
+  await lab.page.locator("#controls button", { hasText: "Copy as Rust" }).press("Enter");
+  const { notice } = await lab.until((s) => s.notice?.error);
+  assert.equal(notice.text, "not copied: the browser does not let the page copy");
+  await lab.page.waitForTimeout(800);
+  assert.deepEqual([await lab.page.textContent("#alert"), await lab.page.textContent("#said")], ["", ""]);
 });

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, rmSync } from "node:fs";
 import { after, before } from "node:test";
 import { join } from "node:path";
-import { begin, end, native, shots } from "./harness.mjs";
+import { Lab, begin, end, native, shots } from "./harness.mjs";
 import { lab } from "./on_page.mjs";
 
 before(begin);
@@ -28,6 +28,17 @@ lab("a planner in the page finds the path that it finds natively, and the arm dr
   }, 60000);
   assert.equal(arrived.robots.length, 1);
   await lab.shot("plan-played");
+  // its robot alone in its world, which sees nothing, fits in an address
+  await lab.send({ do: "pause" });
+  const { tick } = await lab.until((s) => !s.playing);
+  await lab.page.evaluate(() => void (window.told = new Promise((done) => addEventListener("motionlab", ({ detail }) => detail.kind === "link" && done(detail)))));
+  await lab.send({ do: "link" });
+  const { query, digest, error } = await lab.page.evaluate(() => window.told);
+  assert.match(query, /^v=3&seed=\d+&world=workbench&sensor=none&inputs=/, error);
+  const other = await Lab.open(`/?${query}`);
+  const { notice } = await other.until((s) => s.notice);
+  assert.equal(notice.text, `the same run to the last bit: tick ${tick}, digest ${digest}`);
+  assert.deepEqual(await other.close(), []);
 });
 
 lab("a trailer parked by a planner is the same run in the page, to the last bit", "/", async (lab) => {

@@ -108,6 +108,62 @@ lab("names stay while they are read, numbers are valid, lists and headings are s
   assert.notEqual(await paper.getAttribute("aria-description"), said, "and what changes is beside it");
 });
 
+lab("what a button opens follows it: a list has options, arrows move in it, Escape returns", "/?tick=100", async (lab) => {
+  const { page } = lab;
+  const focused = () => page.evaluate(() => document.activeElement.textContent);
+  const becomes = (text) => page.waitForFunction((t) => document.activeElement.textContent === t, text, { timeout: 5000 });
+  const speed = page.locator("#controls button", { hasText: /^speed/ });
+  assert.equal(await speed.textContent(), "speed: 1 x");
+  await speed.focus();
+  await speed.press("Enter");
+  const list = page.getByRole("listbox", { name: /^speed/ });
+  const options = list.getByRole("option");
+  await options.first().waitFor();
+  const names = await options.allTextContents();
+  assert.ok(names.length >= 4 && names.includes("1 x") && names.includes("2 x"), `${names}`);
+  assert.equal(await list.locator("[aria-selected=true]").textContent(), "1 x", "what is chosen");
+  assert.match(await list.evaluate((e) => e.previousElementSibling.textContent), /^speed/, "it stands behind its button");
+  await becomes("1 x");
+  await page.keyboard.press("ArrowDown");
+  await becomes(names[names.indexOf("1 x") + 1]);
+  await page.keyboard.press("Home");
+  await becomes(names[0]);
+  await page.keyboard.press("ArrowUp");
+  await becomes(names.at(-1));
+  await page.keyboard.press("Escape");
+  await list.waitFor({ state: "detached" });
+  assert.equal(await focused(), "speed: 1 x", "back at the button, and nothing chosen");
+  await speed.press("Enter");
+  await becomes("1 x");
+  await page.keyboard.press("ArrowDown");
+  const [chosen] = [names[names.indexOf("1 x") + 1]];
+  await becomes(chosen);
+  await page.keyboard.press("Enter");
+  await page.waitForFunction((t) => document.activeElement.textContent === t, `speed: ${chosen}`, { timeout: 5000 });
+  // the menu is the next stop of Tab, not the last
+  const menu = page.locator("#controls button", { hasText: /^Menu$/ });
+  await menu.focus();
+  await menu.press("Enter");
+  const group = page.getByRole("group", { name: "Menu" });
+  await group.waitFor({ state: "attached" });
+  await page.waitForTimeout(300);
+  await page.keyboard.press("Tab");
+  assert.ok(await page.evaluate(() => document.activeElement.closest("[role=group]")?.ariaLabel === "Menu"), await focused());
+  await page.keyboard.press("Escape");
+  await group.waitFor({ state: "detached" });
+  assert.equal(await focused(), "Menu");
+});
+
+lab("what a key does to Query's robot is said once it stands", "/?widget=anatomy", async (lab) => {
+  const { page } = lab;
+  const drawing = page.locator("#controls button", { hasText: /^Reach/ }).first();
+  await drawing.focus();
+  await page.keyboard.press("ArrowRight");
+  await page.waitForFunction(() => /^It is free, \d\.\d{4} m away$/.test(document.getElementById("heard").textContent), null, { timeout: 5000 });
+  const { query } = await lab.state();
+  assert.equal(await page.textContent("#heard"), `It is free, ${query.distance.toFixed(4)} m away`);
+});
+
 lab("the configuration space's point moves by arrow keys", "/?widget=cspace", async (lab) => {
   const point = lab.page.locator("#controls button", { hasText: /^configuration space/ });
   const { coordinates } = (await lab.until((s) => s.query)).query;

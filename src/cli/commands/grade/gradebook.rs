@@ -22,21 +22,23 @@ pub fn row(graded: &Graded) -> String {
         }
         None => ",,,,,,".into(),
     };
-    let Graded { submission, points, max_points, seeds, refused, .. } = graded;
+    let Graded { submission, points, max_points, seeds, .. } = graded;
     format!(
         "{},{},{},{},{passed},{seeds},{attempt},{}",
         csv_cell(submission),
         graded.passed,
-        rounded(points.0),
+        points.map_or_else(String::new, |points| rounded(points.0)),
         rounded(max_points.0),
-        csv_cell(refused.as_deref().unwrap_or_default())
+        csv_cell(&graded.reason().unwrap_or_default())
     )
 }
 
-/// Gradescope's `results.json` of one submission, as its autograder specification documents it.
+/// Gradescope's `results.json` of one submission, as its autograder specification documents it. What was not graded has
+/// no score: Gradescope says then that its autograder failed, and the submission waits for a person.
 #[derive(Serialize)]
 pub struct Results {
-    score: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    score: Option<f64>,
     output: String,
     tests: Vec<Test>,
 }
@@ -55,7 +57,7 @@ struct Test {
 impl Results {
     /// The results of a submission.
     pub fn new(graded: &Graded) -> Self {
-        let Graded { attempts, seeds, refused, .. } = graded;
+        let Graded { attempts, seeds, .. } = graded;
         let lines: Vec<String> = attempts.iter().map(in_words).collect();
         let verdict = if graded.passed { "It passes at every seed." } else { "It does not pass." };
         let test = |criterion: &GradedCriterion| Test {
@@ -70,9 +72,9 @@ impl Results {
             output: format!("met at {} of {}", criterion.met, counted(seeds, "seed")),
         };
         Results {
-            score: graded.points.0,
-            output: match refused {
-                Some(reason) => format!("It was not graded: {reason}"),
+            score: graded.points.map(|points| points.0),
+            output: match graded.reason() {
+                Some(reason) => reason,
                 None => format!("{verdict}\n{}", lines.join("\n")),
             },
             tests: graded.criteria.iter().map(test).collect(),
@@ -102,7 +104,7 @@ mod tests {
         let graded = |attempts: Vec<Tried>| Graded {
             submission: "s.ron".into(),
             passed: false,
-            points: JsonNumber(1.0),
+            points: Some(JsonNumber(1.0)),
             max_points: JsonNumber(3.0),
             criteria: Vec::new(),
             seeds: attempts.len(),

@@ -11,17 +11,17 @@ use crate::cli::{Data, Failure};
 pub struct Graded {
     pub submission: String,
     pub passed: bool,
-    /// The points earned.
-    pub points: JsonNumber,
+    /// The points earned; null where it was not graded.
+    pub points: Option<JsonNumber>,
     /// The points that could be earned.
     pub max_points: JsonNumber,
-    /// The criteria that are worth points.
+    /// The criteria that are worth points; none where it was not graded.
     pub criteria: Vec<GradedCriterion>,
     /// The number of the assignment's seeds.
     pub seeds: usize,
-    /// The tick of the first forged frame.
+    /// The tick of the first forged frame; 0 where what was changed is no frame.
     pub forged_at: Option<u64>,
-    /// The reason why it was refused.
+    /// The reason why it was refused, or not graded.
     pub refused: Option<String>,
     pub attempts: Vec<Tried>,
 }
@@ -34,6 +34,17 @@ pub struct GradedCriterion {
     pub max_points: JsonNumber,
     /// The number of seeds at which it is met.
     pub met: usize,
+}
+
+impl GradedCriterion {
+    fn of(criterion: &Criterion) -> Self {
+        GradedCriterion {
+            name: criterion.name,
+            points: JsonNumber(criterion.points),
+            max_points: JsonNumber(criterion.of),
+            met: criterion.met,
+        }
+    }
 }
 
 /// An attempt as JSON.
@@ -68,12 +79,6 @@ impl Graded {
             metres: attempt.distance.map(|d| JsonNumber(d.metres)),
             radians: attempt.distance.map(|d| JsonNumber(d.radians)),
         };
-        let part = |criterion: &Criterion| GradedCriterion {
-            name: criterion.name,
-            points: JsonNumber(criterion.points),
-            max_points: JsonNumber(criterion.of),
-            met: criterion.met,
-        };
         let forged_at = match &grade.refusal {
             Some(Refusal::Forged(difference)) => Some(difference.first_tick()),
             _ => None,
@@ -81,9 +86,9 @@ impl Graded {
         Graded {
             submission,
             passed: grade.passed(),
-            points: JsonNumber(grade.score.points),
+            points: Some(JsonNumber(grade.score.points)),
             max_points: JsonNumber(grade.score.of),
-            criteria: grade.score.criteria.iter().map(part).collect(),
+            criteria: grade.score.criteria.iter().map(GradedCriterion::of).collect(),
             seeds: assignment.seeds().len(),
             forged_at,
             refused: grade.refusal.as_ref().map(Refusal::to_string),
@@ -91,27 +96,32 @@ impl Graded {
         }
     }
 
-    /// A submission that could not be graded.
+    /// A submission that earns nothing: it was read, and is refused.
     pub fn refused(submission: String, assignment: &Assignment, reason: String) -> Self {
         let none = assignment.score(&[]);
-        let criteria = none.criteria.iter();
-        let criteria = criteria.map(|c| GradedCriterion {
-            name: c.name,
-            points: JsonNumber(0.0),
-            max_points: JsonNumber(c.of),
-            met: 0,
-        });
+        let criteria = none.criteria.iter().map(GradedCriterion::of).collect();
+        Graded { points: Some(JsonNumber(0.0)), criteria, ..Self::not_graded(submission, assignment, reason) }
+    }
+
+    /// A submission that can't be read, or is none: it has no points yet.
+    pub fn not_graded(submission: String, assignment: &Assignment, reason: String) -> Self {
         Graded {
             submission,
             passed: false,
-            points: JsonNumber(0.0),
-            max_points: JsonNumber(none.of),
-            criteria: criteria.collect(),
+            points: None,
+            max_points: JsonNumber(assignment.score(&[]).of),
+            criteria: Vec::new(),
             seeds: assignment.seeds().len(),
             forged_at: None,
             refused: Some(reason),
             attempts: Vec::new(),
         }
+    }
+
+    /// The reason why it was refused or not graded, which it says.
+    pub fn reason(&self) -> Option<String> {
+        let reason = self.refused.as_deref()?;
+        Some(if self.points.is_none() { format!("not graded: {reason}") } else { reason.to_owned() })
     }
 
     /// The heading of the table for people.
@@ -123,8 +133,8 @@ impl Graded {
     /// Prints a line for each attempt, or the reason why there are none.
     pub fn print(&self, width: usize, data: &mut Data) -> Result<(), Failure> {
         let name = in_one_line(&self.submission);
-        if let Some(reason) = self.refused.as_deref().map(in_one_line) {
-            data.line(format!("{name:width$}  {:>6}  {reason}", "-"))?;
+        if let Some(reason) = self.reason() {
+            data.line(format!("{name:width$}  {:>6}  {}", "-", in_one_line(&reason)))?;
         }
         for tried in &self.attempts {
             let Tried { seed, verdict, tick, contacts, reversals, .. } = tried;
@@ -137,7 +147,8 @@ impl Graded {
             let part =
                 |c: &GradedCriterion| format!("{} {} of {}", c.name, rounded(c.points.0), rounded(c.max_points.0));
             let parts: Vec<String> = self.criteria.iter().map(part).collect();
-            let (points, of) = (rounded(self.points.0), rounded(self.max_points.0));
+            let (points, of) = (self.points.map_or(0.0, |points| points.0), rounded(self.max_points.0));
+            let points = rounded(points);
             data.line(format!("{name:width$}  {:>6}  {points} of {of} points: {}", "", parts.join(", ")))?;
         }
         Ok(())

@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use motion_lab::recording::{
-    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Refusal, RunError, Submission,
+    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Refusal, RunError, Submission, verify,
 };
-use motion_lab::run::{Log, Script};
+use motion_lab::run::{Log, LogError, Script};
 use motion_lab::simulation::SpawnError;
 
 use crate::cli::support::console::note;
@@ -27,8 +27,9 @@ use submissions::{Submissions, ending};
 /// Grade scripts and logs by running them again at every seed of an assignment
 ///
 /// A log's frames are simulated again first: a log that claims others is forged. A submission passes when its robot is
-/// at the goal within every limit, at every seed. A robot that the script does not drive stands. The exit code is 0
-/// when all pass, 3 when a file is missing or can't be read, else 4.
+/// at the goal within every limit, at every seed. A robot that the script does not drive stands. What can't be read is
+/// not graded: it has no points, rather than none earned. The exit code is 0 when all pass, 3 when a file is missing or
+/// can't be read, else 4.
 ///
 /// An assignment, in which the car has to park: it passes only when it stays there for the last 20 ticks.
 ///
@@ -57,7 +58,7 @@ Examples:
 pub struct GradeArgs {
     /// The assignment, RON.
     assignment: PathBuf,
-    /// The submissions: scripts, and logs named .mcap; a folder stands for those in it, and says what else it
+    /// The submissions: scripts, logs named .mcap and saved pages named .html; a folder stands for those in it, and says what else it
     /// holds; a pattern in quotes, as "week3/*.ron", for the files that match.
     #[arg(required = true, value_name = "SUBMISSION")]
     submissions: Vec<PathBuf>,
@@ -124,7 +125,7 @@ impl GradeArgs {
         for ((path, name), number) in files.iter().zip(&names).zip(0_u64..) {
             let before = number * seeds * ticks;
             let graded = match read_submission(path, &self.expected) {
-                Ok(Ok(submission)) => {
+                Ok(Read::Submission(submission)) => {
                     let grade = assignment.grade_watched(&submission, |attempt, tick| {
                         progress.at(before + attempt as u64 * ticks + tick)
                     });
@@ -133,13 +134,17 @@ impl GradeArgs {
                     }
                     Graded::new(name.clone(), &assignment, &grade)
                 }
-                Ok(Err(reason)) => Graded::refused(name.clone(), &assignment, reason),
+                Ok(Read::Refused(reason)) => Graded::refused(name.clone(), &assignment, reason),
+                Ok(Read::Forged(reason)) => {
+                    Graded { forged_at: Some(0), ..Graded::refused(name.clone(), &assignment, reason) }
+                }
+                Ok(Read::None(reason)) => Graded::not_graded(name.clone(), &assignment, reason),
                 Err(failure @ Failure::Input { .. }) => {
                     is_missing = true;
                     let reason = reason_of(&failure, name);
                     data.flush()?;
                     say(failure);
-                    Graded::refused(name.clone(), &assignment, reason)
+                    Graded::not_graded(name.clone(), &assignment, reason)
                 }
                 Err(failure) => return Err(failure),
             };
@@ -187,31 +192,60 @@ fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
     file.in_world(world).map_err(refused)
 }
 
-/// A submission, or why it is none. Only a file that can't be read at all is a failure.
-fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Result<Submission, String>, Failure> {
+/// What a file holds.
+enum Read {
+    /// A submission.
+    Submission(Submission),
+    /// A log whose end seals the digest of another run, though its frames are those of what it says.
+    Forged(String),
+    /// A run that is refused.
+    Refused(String),
+    /// Nothing that can be graded.
+    None(String),
+}
+
+/// What a file holds. Only one that can't be read at all is a failure.
+fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Read, Failure> {
     if path.is_dir() {
-        return Ok(Err("no script, log or table is in this folder".into()));
+        return Ok(Read::None("no script, log or table is in this folder".into()));
     }
-    if ending(path) == "mcap" {
-        let log = Log::read_mcap(&read_bytes(path, MAX_LOG)?).map_err(|error| error.to_string());
-        // the digest of a long log takes a while
-        let digest = |log: &Log| if expected.is_any() { log.digest() } else { None };
-        let expected = |log: &Log| digest(log).and_then(|digest| expected.refusal(digest)).map_or(Ok(()), Err);
-        let submission = log.and_then(|read| expected(&read.log).map(|()| Submission::Log(Box::new(read.log))));
-        return Ok(submission);
+    if ["mcap", "html", "htm"].contains(&&*ending(path)) {
+        return Ok(read_run(&read_bytes(path, MAX_LOG)?, expected));
     }
     let bytes = read_bytes(path, MAX_TEXT)?;
     if expected.is_any() {
-        return Ok(Err("no log: --expect asks for one with this run digest".into()));
+        return Ok(Read::Refused("no log: --expect asks for one with this run digest".into()));
     }
     if ending(path) == "csv" {
         let (file, ron) = (path.display(), path.with_extension("ron"));
         let ron = ron.display();
-        return Ok(Err(format!("a table is no script; make one of it: motion-lab script convert {file} -o {ron}")));
+        return Ok(Read::None(format!(
+            "a table is no script; make one of it: motion-lab script convert {file} -o {ron}"
+        )));
     }
     let file = path.file_name().unwrap_or_default().to_string_lossy();
-    Ok(String::from_utf8(bytes)
+    let script = String::from_utf8(bytes)
         .map_err(|_| "no script: it is not UTF-8".to_owned())
-        .and_then(|text| Script::parse(&file, &text).map_err(|error| error.to_string()))
-        .map(Submission::Script))
+        .and_then(|text| Script::parse(&file, &text).map_err(|error| error.to_string()));
+    Ok(script.map_or_else(Read::None, |script| Read::Submission(Submission::Script(script))))
+}
+
+/// The run in the bytes of a log or of a saved page.
+fn read_run(bytes: &[u8], expected: &ExpectedDigests) -> Read {
+    let log = match Log::read_mcap(bytes) {
+        Ok(read) => read.log,
+        // where a frame was changed too, the replay finds the first
+        Err(LogError::OtherRun(other)) if replays(&other.read.log) => return Read::Forged(other.to_string()),
+        Err(LogError::OtherRun(other)) => other.read.log,
+        Err(error) => return Read::None(error.to_string()),
+    };
+    // the digest of a long log takes a while
+    let digest = if expected.is_any() { log.digest() } else { None };
+    let refusal = digest.and_then(|digest| expected.refusal(digest));
+    refusal.map_or_else(|| Read::Submission(Submission::Log(Box::new(log))), Read::Refused)
+}
+
+/// Whether a log's frames are those of its own settings and script.
+fn replays(log: &Log) -> bool {
+    verify(log, |_| {}).is_ok_and(|found| found.difference.is_none())
 }

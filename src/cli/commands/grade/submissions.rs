@@ -13,7 +13,7 @@ const DEEPEST: usize = 8;
 const MAX_SUBMISSIONS: usize = 100_000;
 
 /// The endings of what can be handed in, in any case of letters.
-const ENDINGS: [&str; 3] = ["ron", "mcap", "csv"];
+const ENDINGS: [&str; 5] = ["ron", "mcap", "csv", "html", "htm"];
 
 /// What the command line names.
 #[derive(Default)]
@@ -24,7 +24,7 @@ pub struct Submissions {
     pub left_out: Vec<(PathBuf, &'static str)>,
 }
 
-/// The files that `names` name, in their order. A folder stands for the scripts, logs and tables in it and in its
+/// The files that `names` name, in their order. A folder stands for the scripts, logs, pages and tables in it and in its
 /// folders, by name, but for the file `assignment`; whatever else it holds is left out by name. A pattern with `*` or
 /// `?` that is no file's name stands for the files that match it. A folder or a pattern without any stays itself. Any
 /// other name is taken as it is, whether there is such a file or not.
@@ -68,8 +68,7 @@ fn reason_left_out(file: &Path) -> Option<&'static str> {
     match ending(file).as_str() {
         known if ENDINGS.contains(&known) => None,
         "partial" => Some("it is the beginning of a log, which was not finished"),
-        "html" | "htm" => Some("it is a page: open it in the lab, save its run as a file, and hand that in"),
-        _ => Some("its name ends in none of .ron, .mcap and .csv"),
+        _ => Some("its name ends in none of .ron, .mcap, .html and .csv"),
     }
 }
 

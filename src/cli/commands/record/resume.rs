@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use motion_lab::output::{is_left, is_temporary, unfinished, whole_name};
+use motion_lab::run::{Log, LogError};
 
 use super::one::{Printed, StopRule, record};
 use crate::cli::support::input::read_bytes_if;
@@ -27,6 +28,12 @@ pub fn resume(
         return Err(Failure::input(
             format!("{}: another process is writing it", file.display()),
             "Wait until it ends, or stop it with Ctrl-C.",
+        ));
+    }
+    if is_page(file) {
+        return Err(Failure::usage(
+            format!("{}: it is a page, and a log alone goes on where it ends", file.display()),
+            "Make a log of a saved page: motion-lab replay PAGE --log full -o FULL.mcap",
         ));
     }
     let source = read_log(file)?;
@@ -66,5 +73,9 @@ pub fn name_unfinished(output: &Path) {
 }
 
 fn is_log(file: &Path) -> bool {
-    read_bytes_if(file, 0, |_| false).is_ok_and(|begin| begin.len() == 8 && begins_as_one(&begin))
+    read_bytes_if(file, 0, |_| false).is_ok_and(|begin| begin.len() == 8 && begins_as_one(&begin)) && !is_page(file)
+}
+
+fn is_page(file: &Path) -> bool {
+    read_bytes_if(file, 0, |_| false).is_ok_and(|begin| matches!(Log::read_mcap(&begin), Err(LogError::Page(_))))
 }

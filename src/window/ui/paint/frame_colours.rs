@@ -35,7 +35,12 @@ impl FrameColours {
     /// While a robot is in hand, a drag or a refusal is on, or a dialog is open, nothing is lit and nothing fades.
     pub fn of(ui: &Ui, state: &mut UiState, narrow: bool, low: bool) -> Self {
         let is_busy = state.is_busy() || ui.ctx().dragged_id().is_some();
-        let pointed = state.pointed.take().or(state.page_lit).filter(|_| !is_busy);
+        // what a page lit in one widget stays dark in the next
+        if state.page_lit.is_some_and(|(widget, _)| widget != state.widget) {
+            state.page_lit = None;
+        }
+        let page_lit = state.page_lit.map(|(_, role)| role);
+        let pointed = state.pointed.take().or(page_lit).filter(|_| !is_busy);
         if pointed != state.lit && pointed.is_some() {
             state.lit = pointed;
         }

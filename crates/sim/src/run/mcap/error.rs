@@ -73,6 +73,9 @@ pub enum LogError {
     /// The file is an export for viewers, made from a log.
     #[error("this is an export for viewers, not the run log itself")]
     Export,
+    /// A page that holds no run, or one that can't be read.
+    #[error("this is a page, and {0}")]
+    Page(&'static str),
     /// A log of digests, where one with frames is needed.
     #[error("this is a digest log, which holds no frames")]
     NoFrames,

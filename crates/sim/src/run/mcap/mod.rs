@@ -32,6 +32,7 @@ mod encoder;
 mod error;
 mod frame_messages;
 mod message;
+mod page;
 mod preamble;
 mod read_log;
 mod reader;

@@ -5,6 +5,7 @@ use xxhash_rust::xxh3::xxh3_128;
 
 use super::encoder::{Encoder, MAX_DIGESTS};
 use super::message::{FrameMessage, ScanMessage};
+use super::page::log_bytes;
 use super::preamble::Preamble;
 use super::record::{Cursor, DIGESTS, MAGIC, RUN_DIGEST, Record, SEAL, message, opcode, record_at};
 use super::record_writer::put_seal;
@@ -13,7 +14,7 @@ use crate::run::log::DIGEST_TICKS;
 use crate::run::{Digest, Frame, Log, Recorded, RunDigest, SecondDigests};
 
 impl Log {
-    /// Reads a log from the bytes of an MCAP file.
+    /// Reads a log from the bytes of an MCAP file, or of a page that *Save as page* of the lab wrote.
     ///
     /// The reader encodes what it has read again, and accepts the file only if every byte agrees: each piece, its seal
     /// with the hash of everything before it, and the end with its summary and footer. A file that was cut, changed in
@@ -23,7 +24,7 @@ impl Log {
     /// # Errors
     /// [`LogError::Damaged`] with everything that is sealed; [`LogError::OtherRun`] for a whole file whose seed,
     /// settings, worlds, script or frames are not those of the digest that its end seals; [`LogError::NotALog`],
-    /// [`LogError::Export`],
+    /// [`LogError::Export`], [`LogError::Page`],
     /// [`LogError::Version`]; if the part before the first tick is sealed but not valid, [`LogError::Content`],
     /// [`LogError::Config`], [`LogError::Script`] or [`LogError::Foreign`].
     pub fn read_mcap(file: &[u8]) -> Result<ReadLog, LogError> {
@@ -35,6 +36,7 @@ impl Log {
     /// # Errors
     /// As [`read_mcap`](Self::read_mcap).
     pub fn read_mcap_with(file: &[u8], mut on_piece: impl FnMut(u64)) -> Result<ReadLog, LogError> {
+        let file = &*log_bytes(file)?;
         let records = first_piece(file)?.map_err(|kind| damaged(None, 0, kind))?;
         let preamble = Preamble::read(&records, frame_of(&records))?;
         let recipe = preamble.recipe.clone();
