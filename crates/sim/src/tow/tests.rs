@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::{Tow, TowCommand, TowState, grip_at};
 use motion_lab_core::configuration::{AnyConfiguration, HitchCfg};
 use motion_lab_core::geometry::{Point2, Pose2};
-use motion_lab_core::num::{hypot, ln, sqrt};
+use motion_lab_core::num::{greater, hypot, ln, wrap};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::robots::{
     AnyRobot, CHANNEL_UNITS, CarCmd, Drivable, HITCH, Hitch, Motion, RUSTY, RustyCmd, TICK, WheelSlip,
@@ -61,7 +61,8 @@ fn seconds_to_rest<Q: std::fmt::Debug>(trace: &Trace<Q>) -> f64 {
 
 /// How often a trace changes between ahead and back.
 fn reversals<Q>(trace: &Trace<Q>) -> usize {
-    let ways: Vec<i16> = trace.iter().map(|(_, command)| command.channels[0].signum()).filter(|way| *way != 0).collect();
+    let ways: Vec<i16> =
+        trace.iter().map(|(_, command)| command.channels[0].signum()).filter(|way| *way != 0).collect();
     ways.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
@@ -169,7 +170,7 @@ fn no_towed_car_slips_sideways() {
         for pair in trace.windows(2) {
             let (from, to) = (pair[0].0.body, pair[1].0.body);
             // the chord of an arc points along the mean of the headings at its ends
-            let middle = Pose2 { theta: from.theta + 0.5 * motion_lab_core::num::wrap(to.theta - from.theta), ..from };
+            let middle = Pose2 { theta: from.theta + 0.5 * wrap(to.theta - from.theta), ..from };
             let sideways = middle.inverse().transform(to.position()).y;
             assert!(sideways.abs() < 1e-12, "{sideways}");
         }
@@ -178,21 +179,21 @@ fn no_towed_car_slips_sideways() {
 
 #[test]
 fn within_its_turning_circle_a_car_only_steers_to_what_is_abeam() {
-    let radius = HITCH.tightest();
-    for grip in [0.0, 1.25, 3.2] {
-        // the farthest of the circle about (0, radius) that the grip runs on
-        let far = radius + sqrt(radius * radius + grip * grip);
-        for (y, stands) in [(0.3, true), (0.5 * far, true), (0.98 * far, false), (1.2 * far, false)] {
-            for side in [1.0, -1.0] {
-                let tow = Tow::new(grip, Point2::new(grip, side * y));
-                let (_, command) = car_towed(&HITCH, car_at(0.0, 0.0, 0.0), &tow, 1)[0];
-                let is_near = grip == 0.0 && y < 0.98 * far || grip > 0.0 && stands && y > 2.0;
-                if is_near {
-                    assert_eq!(command.state, TowState::OnlySteers, "{grip} {y}");
-                    assert_eq!(command.channels, [0, 128 * side as i16], "it steers to that side");
-                } else if !stands {
-                    assert_eq!(command.state, TowState::Goes, "{grip} {y}");
-                }
+    // sharply to the left the grip runs on a circle about (0, radius), which is abeam of the grip at two radii
+    let far = 2.0 * HITCH.tightest();
+    for (y, state) in [
+        (0.2, TowState::OnlySteers),
+        (1.0, TowState::OnlySteers),
+        (0.9 * far, TowState::OnlySteers),
+        (1.01 * far, TowState::Goes),
+        (3.0 * far, TowState::Goes),
+    ] {
+        for (grip, side) in [(0.0, 1.0), (1.25, 1.0), (3.2, 1.0), (-0.7, -1.0), (1.25, -1.0)] {
+            let tow = Tow::new(grip, Point2::new(grip, side * y));
+            let (_, command) = car_towed(&HITCH, car_at(0.0, 0.0, 0.0), &tow, 1)[0];
+            assert_eq!(command.state, state, "{grip} {y}");
+            if state == TowState::OnlySteers {
+                assert_eq!(command.channels, [0, 128 * side as i16], "it steers to that side");
             }
         }
     }
@@ -212,11 +213,12 @@ fn a_trailer_is_backed_straight_and_does_not_jackknife() {
     let car = HITCH.with_trailer();
     for fold in [0.0, 0.2, -0.4, 0.5] {
         let trace = car_towed(&car, folded(0.0, fold), &Tow::new(1.25, Point2::new(-12.0, 0.0)), 600);
-        let most = trace.iter().fold(0.0, |most, (q, _)| motion_lab_core::num::greater(most, q.hitch_angle().unwrap().abs()));
+        let most = trace.iter().fold(0.0, |most, (q, _)| greater(most, q.hitch_angle().unwrap().abs()));
         assert!(most <= fold.abs() + 0.05 || most < 0.45, "from {fold} it folds to {most}");
         let (end, command) = trace.last().unwrap();
         assert!(end.body.x < -11.0, "{fold}: {end:?} {command:?}");
-        assert!(reversals(&trace) == 0);
+        // off the line by a little at last, it draws ahead to it
+        assert!(reversals(&trace) <= 1, "{fold}");
     }
     // folded farther than sharp steering can open, it stands, and ahead it unfolds
     let stands = car_towed(&car, folded(0.0, 0.8), &Tow::new(0.0, Point2::new(-5.0, 0.0)), 1)[0].1;
@@ -228,7 +230,7 @@ fn a_trailer_is_backed_straight_and_does_not_jackknife() {
 #[test]
 fn whatever_the_aim_a_towed_car_comes_to_rest_and_its_trailer_stays_within_its_limit() {
     let mut draws = Stream::new(Seed(8), "tow");
-    let mut ends = [0; 4];
+    let (mut arrived, mut steering) = (0, 0);
     for i in 0..600_u32 {
         let limit = [0.4, 0.9, 3.0][(i % 3) as usize];
         let car = if i % 2 == 0 { HITCH } else { HITCH.with_trailer().with_jackknife(limit) };
@@ -238,13 +240,14 @@ fn whatever_the_aim_a_towed_car_comes_to_rest_and_its_trailer_stays_within_its_l
         let tow = Tow::new(draws.uniform(-0.7, 3.2), aim);
         let trace = car_towed(&car, start, &tow, 1200);
         let (end, command) = trace.last().unwrap();
-        ends[command.state as usize] += 1;
+        arrived += u32::from(command.state == TowState::Rests);
+        steering += u32::from(command.state == TowState::OnlySteers);
         assert_eq!(command.channels[0], 0, "{i}: {end:?} to {tow:?}");
-        assert!(reversals(&trace) <= 2, "{i}: {} times from {start:?} by {tow:?}", reversals(&trace));
+        assert!(reversals(&trace) <= 1, "{i}: {} times from {start:?} by {tow:?}", reversals(&trace));
         let folds = trace.iter().filter_map(|(q, _)| q.hitch_angle());
         assert!(folds.into_iter().all(|fold| fold.abs() <= limit), "{i}");
     }
-    println!("{ends:?}");
+    assert!(arrived > 300 && steering > 200, "{arrived} {steering}");
 }
 
 #[test]
