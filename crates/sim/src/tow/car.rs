@@ -25,8 +25,8 @@ const FOLDING: f64 = 0.8;
 const BACK_AT_ONCE: f64 = 0.3;
 
 /// Parts of the greatest fold that steering can open again: what backing up asks for, and where it ends.
-const ASKED: f64 = 0.6;
-const MOST: f64 = 0.9;
+const PART_ASKED: f64 = 0.6;
+const PART_ALLOWED: f64 = 0.9;
 
 /// A way to the aim: how sharply to the left, per metre, and how far, metres, backward below 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -88,7 +88,7 @@ fn straight_on(pull: &Pull, tightest: f64) -> Option<CarWay> {
 fn tightest(car: &Hitch, fold: Option<f64>) -> f64 {
     let own = car.curvature(car.max_steer);
     let limit = car.jackknife.filter(|limit| fold.is_some() && *limit < FRAC_PI_2);
-    limit.zip(car.hitch_len).map_or(own, |(limit, bar)| lesser(own, sin(MOST * limit) / bar))
+    limit.zip(car.hitch_len).map_or(own, |(limit, bar)| lesser(own, sin(PART_ALLOWED * limit) / bar))
 }
 
 /// Backs up with the trailer folded by `fold`.
@@ -99,10 +99,10 @@ fn tightest(car: &Hitch, fold: Option<f64>) -> f64 {
 fn back_up(car: &Hitch, fold: f64, way: CarWay, pull: &Pull) -> TowCommand {
     let (own, bar) = (car.curvature(car.max_steer), car.hitch_len.unwrap_or(f64::INFINITY));
     let open = lesser(arc_sine(own * bar), car.jackknife.unwrap_or(FRAC_PI_2));
-    if fold.abs() > MOST * open {
+    if fold.abs() > PART_ALLOWED * open {
         return TowCommand { channels: [0, 0], state: TowState::Folded };
     }
-    let asked = (-arc_sine(bar * way.curvature)).clamp(-ASKED * open, ASKED * open);
+    let asked = (-arc_sine(bar * way.curvature)).clamp(-PART_ASKED * open, PART_ASKED * open);
     let curvature = -sin(fold) / bar - (fold - asked) / FOLDING;
     let most = BACK_AT_ONCE / pull.held;
     go(car, curvature, pull.rate(way.length, GAIN).clamp(-most, most))

@@ -1,5 +1,5 @@
-//! Robots on wheels put elsewhere by hand: by their bodies with Alt, by their points, by the dial; and two of them in one
-//! world.
+//! Robots on wheels put elsewhere by hand: by their bodies with Alt, by their points, by the dial; and two of them in
+//! one world.
 
 use super::*;
 use motion_lab_core::collision::{Collision, Scene};

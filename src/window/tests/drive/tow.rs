@@ -25,13 +25,13 @@ fn parked(trailer: bool) -> Harness<'static, Lab> {
         click(&mut harness, "put a trailer on");
         click(&mut harness, "Step");
     }
-    let to = [5.0, 4.0, 0.0, 0.0].map(|v| motion_lab_sim::run::Quantized::try_new(v).unwrap());
+    let to = [4.0, 2.5, 0.0, 0.0].map(|v| motion_lab_sim::run::Quantized::try_new(v).unwrap());
     let input = RobotInput::Teleport(to[..if trailer { 4 } else { 3 }].to_vec());
     let command = motion_lab_sim::simulation::RobotCommand { robot: "Hitch".into(), input };
     harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
     harness.run_steps(3);
     click(&mut harness, "Step");
-    assert_eq!(harness.state().robot(2).coordinates[..2], [5.0, 4.0]);
+    assert_eq!(harness.state().robot(2).coordinates[..2], [4.0, 2.5]);
     harness
 }
 
@@ -59,16 +59,16 @@ const ABEAM: &str = "abeam: the car can only steer";
 fn a_car_dragged_sideways_turns_its_wheels_and_does_not_slide() {
     let mut harness = parked(false);
     let (lot, before) = (Model::lot(), harness.state().script().events.len());
-    let body = on_screen(&harness, &lot, [6.0, 4.0]);
-    let abeam = on_screen(&harness, &lot, [6.0, 6.0]);
+    let body = on_screen(&harness, &lot, [5.0, 2.5]);
+    let abeam = on_screen(&harness, &lot, [5.0, 4.5]);
     grip(&mut harness, body, abeam);
     harness.run_steps(10);
     assert_eq!(harness.state().transport().playback, Playback::Playing, "a tow starts the run, as a key does");
-    assert_eq!(harness.state().robot(2).coordinates[..], [5.0, 4.0, 0.0], "abeam it stands");
+    assert_eq!(harness.state().robot(2).coordinates[..], [4.0, 2.5, 0.0], "abeam it stands");
     assert_eq!(harness.state().robot(2).channels, [0, 128], "and steers to the pointer");
     assert!(says(&harness, ABEAM));
     // farther ahead it goes
-    let ahead = on_screen(&harness, &lot, [10.0, 5.5]);
+    let ahead = on_screen(&harness, &lot, [9.0, 3.0]);
     pointer(&mut harness, ahead, None);
     let mut poses = Vec::new();
     for _ in 0..400 {
@@ -85,7 +85,7 @@ fn a_car_dragged_sideways_turns_its_wheels_and_does_not_slide() {
     }
     // it was gripped a metre ahead of its axle: that point is where the pointer is
     let gripped = poses.last().unwrap().transform(Point2::new(1.0, 0.0));
-    assert!(hypot(gripped.x - 10.0, gripped.y - 5.5) < 0.1, "{gripped}");
+    assert!(hypot(gripped.x - 9.0, gripped.y - 3.0) < 0.1, "{gripped}");
     assert_eq!(harness.state().robot(2).channels, [0, 0], "it rests there");
     assert_eq!(interface(&harness).armed.as_deref(), Some("Hitch"), "it is in hand");
     pointer(&mut harness, ahead, Some(false));
@@ -113,15 +113,17 @@ fn a_car_that_is_let_go_of_stands_whatever_ends_the_tow() {
         let app = &mut harness.state_mut().app;
         app.add_message::<bevy::window::WindowFocused>().add_systems(Update, crate::window::let_go_of_tow);
         let lot = Model::lot();
-        let body = on_screen(&harness, &lot, [6.2, 4.0]);
-        let to = on_screen(&harness, &lot, [11.0, 4.2]);
+        let body = on_screen(&harness, &lot, [5.2, 2.5]);
+        let to = on_screen(&harness, &lot, [10.5, 2.7]);
         grip(&mut harness, body, to);
         harness.run_steps(10);
         let is_driven = |harness: &Harness<'_, Lab>| harness.state().robot(2).channels[0] > 0;
         assert!(is_driven(&harness), "{name}: the test tows");
         end(&mut harness, to);
         harness.run_steps(6);
-        assert!(!is_driven(&harness), "{name}");
+        // a run that waits while another widget is in front has it with its next tick
+        let waits = harness.state().transport().playback == Playback::Paused;
+        assert!(waits || !is_driven(&harness), "{name}");
         assert_eq!(harness.state().script().events.last().unwrap().input, RobotInput::Drive(0, 0), "{name}");
         // nor does what is left of the drag tow it again
         let events = harness.state().script().events.len();
@@ -170,6 +172,11 @@ fn a_magnified_view_stands_while_a_robot_is_towed() {
         harness.key_press(Key::Plus);
         harness.run_steps(2);
     }
+    // driven, it has the view come along
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(10);
+    harness.key_up(Key::ArrowUp);
+    harness.run_steps(6);
     let camera = |harness: &Harness<'_, Lab>| interface(harness).cameras["Apartment"];
     let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
     grip(&mut harness, body, body + egui::vec2(40.0, 0.0));

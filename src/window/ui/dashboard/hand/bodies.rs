@@ -2,6 +2,7 @@
 
 use bevy_egui::egui::{CursorIcon, Id, Pos2, Rect, Response, Sense, Ui, Vec2, WidgetInfo, WidgetType, pos2};
 
+use super::held_tow::Gripped;
 use super::tow;
 use crate::window::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at, robots_in_the_way, to_come};
 use crate::window::ui::dashboard::doors;
@@ -93,6 +94,9 @@ pub fn bodies<'a>(
             } else if response.clicked() || response.is_pointer_button_down_on() {
                 pressed = Some((robot, response.clicked()));
             }
+            if response.is_pointer_button_down_on() && ui.input(|i| i.pointer.any_pressed()) {
+                grip.press(ui, robot, &response, fit);
+            }
             if response.drag_started() && !was_pinched {
                 grip.take(ui, robot, &response, fit, state, commands);
             }
@@ -151,7 +155,15 @@ impl Grip<'_> {
         Some(response)
     }
 
-    /// Begins a drag: grips the robot to tow it, or notes how far its reference point is from where it was pressed.
+    /// Notes what a press grips: a drag is known as one only after some points, and the robot may go on meanwhile.
+    fn press(&self, ui: &Ui, robot: &CockpitRobot, response: &Response, fit: &Fit) {
+        let Some(at) = response.interact_pointer_pos() else { return };
+        let gripped = tow::gripped(robot, self.from, world_at(fit, at));
+        ui.data_mut(|data| data.insert_temp(response.id.with("gripped"), gripped));
+    }
+
+    /// Begins a drag: takes the robot in hand to tow it, or notes how far its reference point is from where it was
+    /// pressed.
     fn take(
         &self,
         ui: &Ui,
@@ -161,7 +173,6 @@ impl Grip<'_> {
         state: &mut UiState,
         commands: &mut Vec<Command>,
     ) {
-        // a drag is known as one only after some points
         let pressed = ui.input(|i| i.pointer.press_origin()).or(response.interact_pointer_pos());
         let (&[x, y, ..], Some(pressed)) = (self.from, pressed) else { return };
         let pressed = world_at(fit, pressed);
@@ -169,8 +180,11 @@ impl Grip<'_> {
         ui.data_mut(|data| data.insert_temp(response.id, off));
         if off.is_some() {
             commands.push(Command::from(TransportCommand::Checkpoint));
-        } else {
-            tow::grip(robot, self.from, pressed, state, commands);
+            return;
+        }
+        let gripped: Option<Option<Gripped>> = ui.data(|data| data.get_temp(response.id.with("gripped")));
+        if let Some(gripped) = gripped.flatten().or_else(|| tow::gripped(robot, self.from, pressed)) {
+            tow::take(robot, gripped, state, commands);
         }
     }
 

@@ -5,5 +5,6 @@ pub(crate) mod arm;
 pub(crate) mod bodies;
 pub(crate) mod drive;
 pub(crate) mod handles;
+pub(crate) mod held_tow;
 pub(crate) mod pad;
 pub(crate) mod tow;
