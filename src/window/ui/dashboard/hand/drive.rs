@@ -28,8 +28,8 @@ fn channels(input: &InputState) -> (i16, i16) {
 /// pointer that tows it.
 ///
 /// Taking a robot in hand is no input: it goes on with its tour until the first key. A key pressed while the run is
-/// paused starts it, so that the robot is seen to move. Everything between two rests is undone at once, and so is all of
-/// a tow.
+/// paused starts it, so that the robot is seen to move. Everything between two rests is undone at once, and so is a
+/// whole tow.
 pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
     let Some(robot) = state.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
