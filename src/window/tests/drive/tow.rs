@@ -99,11 +99,19 @@ fn a_car_dragged_sideways_turns_its_wheels_and_does_not_slide() {
 
 #[test]
 fn a_car_that_is_let_go_of_stands_whatever_ends_the_tow() {
-    let ends: [(&str, fn(&mut Harness<'_, Lab>, Pos2)); 5] = [
+    let ends: [(&str, fn(&mut Harness<'_, Lab>, Pos2)); 6] = [
         ("release", |harness, at| pointer(harness, at, Some(false))),
         ("Escape", |harness, _| harness.key_press(Key::Escape)),
         ("another widget", |harness, _| harness.key_press_modifiers(Modifiers::COMMAND, Key::Num2)),
         ("the list of keys", |harness, _| harness.key_press(Key::F1)),
+        ("a second finger", |harness, at| {
+            for id in [1, 2] {
+                let (device_id, phase, force) = (egui::TouchDeviceId(1), egui::TouchPhase::Start, None);
+                let pos = at + egui::vec2(40.0 * id as f32, 0.0);
+                harness.event(Event::Touch { device_id, id: egui::TouchId(id), phase, pos, force });
+            }
+            harness.step();
+        }),
         ("the focus goes", |harness, _| {
             harness.state_mut().app.world_mut().write_message(lost());
         }),

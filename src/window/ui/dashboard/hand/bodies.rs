@@ -22,6 +22,9 @@ const BODY_TARGET: f32 = 28.0;
 /// What is said of a robot that the pointer puts elsewhere: its wheels do not turn.
 const PUT: &str = "put, not driven";
 
+/// What a robot is taken by.
+const BODY: &str = "its body";
+
 /// The robot of a cockpit that is nearest to a point, at most `reach` metres away.
 pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRobot> {
     let point = Footprint::disc(at, 1e-9);
@@ -72,7 +75,7 @@ pub fn bodies<'a>(
         let there = footprint_to_come(robot);
         let mut over: Vec<Item> = Vec::new();
         let mut refused = by_point.as_ref().filter(|(of, _)| *of == robot.name).map(|(_, there)| there.clone());
-        let mut grips = vec![Grip { of: "its body", from: to_come(robot), footprint: &there }];
+        let mut grips = vec![Grip { of: BODY, from: to_come(robot), footprint: &there }];
         if robot.target.is_some() {
             over.extend(ghost(robot, &there));
             // where both lie over one another, the place to come is in front
@@ -176,7 +179,8 @@ impl Grip<'_> {
         let pressed = ui.input(|i| i.pointer.press_origin()).or(response.interact_pointer_pos());
         let (&[x, y, ..], Some(pressed)) = (self.from, pressed) else { return };
         let pressed = world_at(fit, pressed);
-        let off = is_to_put(ui, robot).then(|| Point2::new(x, y) - pressed);
+        // where it is still, it will not be with the next tick: that was put, and may be put anew
+        let off = (self.of != BODY || is_to_put(ui, robot)).then(|| Point2::new(x, y) - pressed);
         ui.data_mut(|data| data.insert_temp(response.id, off));
         if off.is_some() {
             commands.push(Command::from(TransportCommand::Checkpoint));
