@@ -88,7 +88,12 @@ fn a_car_dragged_sideways_turns_its_wheels_and_does_not_slide() {
     assert!(hypot(gripped.x - 9.0, gripped.y - 3.0) < 0.1, "{gripped}");
     assert_eq!(harness.state().robot(2).channels, [0, 0], "it rests there");
     assert_eq!(interface(&harness).armed.as_deref(), Some("Hitch"), "it is in hand");
-    pointer(&mut harness, ahead, Some(false));
+    // pulled again from its rest, it is the same drag
+    let farther = on_screen(&harness, &lot, [9.6, 3.1]);
+    pointer(&mut harness, farther, None);
+    harness.run_steps(60);
+    assert!(harness.state().robot(2).coordinates[0] > poses.last().unwrap().x + 0.3);
+    pointer(&mut harness, farther, Some(false));
     harness.run_steps(3);
     assert_eq!(interface(&harness).tow, None);
     let inputs = inputs(&harness, before);
@@ -187,9 +192,11 @@ fn a_magnified_view_stands_while_a_robot_is_towed() {
     harness.run_steps(6);
     let camera = |harness: &Harness<'_, Lab>| interface(harness).cameras["Apartment"];
     let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
-    grip(&mut harness, body, body + egui::vec2(40.0, 0.0));
+    let at_the_edge = pos2(body.x, paper(&harness, "Apartment").bottom() - 30.0);
+    grip(&mut harness, body, at_the_edge);
     let stands = camera(&harness);
-    harness.run_steps(40);
+    harness.run_steps(160);
     assert_eq!(camera(&harness), stands);
-    assert!(harness.state().robot(0).manual);
+    let now = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
+    assert!(now.y > body.y + 60.0, "the test tows: {body} {now}");
 }
