@@ -62,3 +62,22 @@ impl HeldTow {
         TICK * greater(2.0 * self.passed as f64 - 1.0, 1.0)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tow_ends_where_the_pointer_lets_go_or_the_run_goes_back() {
+        let by = Gripped { grip: 1.0, off: Vector2::new(0.0, 0.5) };
+        let mut tow = HeldTow::new("Hitch", by).go_on(10).expect("gripped just now");
+        assert_eq!(tow.line_to(Point2::new(3.0, 4.0)), Tow { grip: 1.0, aim: Point2::new(3.0, 4.5), held: 0.05 });
+        assert_eq!(tow.clone().go_on(11), None, "the pointer let go");
+        tow.hold([3, -4]);
+        assert_eq!(tow.channels, (3, -4));
+        assert_eq!(tow.clone().go_on(9), None, "the run has gone back");
+        // of three ticks a frame, five pass from one look at the robot to the next command's end
+        let later = tow.go_on(13).expect("held");
+        assert!((later.line_to(Point2::origin()).held - 0.25).abs() < 1e-12);
+    }
+}
