@@ -26,7 +26,7 @@ use bevy::core_pipeline::Core2d;
 use bevy::ecs::schedule::SingleThreadedExecutor;
 use bevy::prelude::*;
 use bevy::render::camera::CameraRenderGraph;
-use bevy::window::{RequestRedraw, WindowResizeConstraints, WindowResolution};
+use bevy::window::{RequestRedraw, WindowFocused, WindowResizeConstraints, WindowResolution};
 use bevy::winit::{UpdateMode, WinitSettings};
 use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 
@@ -84,6 +84,7 @@ pub(crate) fn windowed_app(add_plugins: impl FnOnce(&mut App, WindowPlugin)) -> 
         .add_message::<SessionCommand>()
         .add_systems(Startup, add_camera)
         .add_systems(Update, wake.after(session::gather))
+        .add_systems(Update, let_go_of_tow)
         .add_systems(EguiPrimaryContextPass, show.in_set(LabSystems::LayOut));
     #[cfg(feature = "window")]
     desktop::add(&mut app);
@@ -112,6 +113,14 @@ fn wake(shown: Res<ShownDashboard>, background: Res<Background>, mut settings: R
         if shown.0.playing || background.is_under_way() { UpdateMode::Continuous } else { UpdateMode::reactive(idle) };
     if settings.focused_mode != mode {
         *settings = WinitSettings { focused_mode: mode, unfocused_mode: mode };
+    }
+}
+
+/// Lets go of the robot that the pointer tows when the window loses the focus: the release may go to another window.
+fn let_go_of_tow(mut changes: MessageReader<WindowFocused>, mut interface: ResMut<Interface>) {
+    let losses = changes.read().filter(|change| !change.focused).count();
+    if losses > 0 && interface.0.tow.is_some() {
+        interface.0.tow = None;
     }
 }
 

@@ -147,6 +147,11 @@ fn pointer(harness: &mut Harness<'_, Lab>, at: Pos2, pressed: Option<bool>) {
     harness.step();
 }
 
+/// Holds Alt, or lets go of it: with it a drag puts a robot elsewhere.
+fn alt(harness: &mut Harness<'_, Lab>, is_held: bool) {
+    harness.event(Event::ModifiersChanged(if is_held { Modifiers::ALT } else { Modifiers::NONE }));
+}
+
 fn click_at(harness: &mut Harness<'_, Lab>, at: Pos2) {
     pointer(harness, at, Some(true));
     pointer(harness, at, Some(false));

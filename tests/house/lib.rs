@@ -39,6 +39,7 @@ const ORDER: [(&str, &[&str]); 5] = [
         &[
             "tour",
             "run",
+            "tow",
             "anatomy",
             "atlas",
             "simulation",
@@ -59,7 +60,7 @@ const ORDER: [(&str, &[&str]); 5] = [
 ];
 
 /// The rooms of the simulator that use neither Bevy nor the simulator itself.
-const PURE: [&str; 4] = ["tour", "run", "anatomy", "atlas"];
+const PURE: [&str; 5] = ["tour", "run", "tow", "anatomy", "atlas"];
 
 #[test]
 fn each_module_uses_only_those_above_it() {

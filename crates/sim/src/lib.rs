@@ -19,6 +19,8 @@ pub mod tour;
 
 pub mod run;
 
+pub mod tow;
+
 pub mod anatomy;
 
 pub mod atlas;

@@ -2,6 +2,7 @@
 
 mod arm;
 mod bodies;
+mod tow;
 
 use super::*;
 
@@ -153,7 +154,7 @@ fn where_there_is_no_room_for_a_trailer_it_is_said() {
 
 #[test]
 fn one_thing_is_said_at_the_pointer_and_what_a_robot_in_hand_says_covers_nothing() {
-    const CLICK: &str = "Click to drive Rusty; drag its body to put it elsewhere";
+    const CLICK: &str = "Click to drive Rusty, drag to tow it, Alt-drag to put it elsewhere";
     let mut harness = lab(WIDE);
     pause(&mut harness);
     let paper = paper(&harness, "Apartment");
@@ -335,8 +336,10 @@ fn one_metre_to_the_left_is_driven_scored_and_tried_again() {
     let lot = motion_lab_core::worlds::World::lot();
     let fit = crate::window::ui::paint::canvas::fit(&motion_lab_core::picture::world(&lot), paper(&harness, "Lot"));
     let there = body - egui::vec2(0.0, fit.px_per_metre() as f32);
+    alt(&mut harness, true);
     pointer(&mut harness, body, Some(true));
     (1..=10).for_each(|i| pointer(&mut harness, body.lerp(there, i as f32 / 10.0), None));
+    alt(&mut harness, false);
     let says_put =
         |harness: &Harness<'_, Lab>| super::safe::words(harness).iter().any(|(text, ..)| text == "put, not driven");
     assert!(says_put(&harness), "while it is lifted");

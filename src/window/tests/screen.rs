@@ -7,9 +7,9 @@ fn the_first_hints_are_put_away_for_good() {
     let mut harness = lab(WIDE);
     harness.state_mut().app.world_mut().resource_mut::<Interface>().0.settings.hints_away.clear();
     harness.run_steps(2);
-    harness.get_by_label("Click the paper, drive by keys or pad.");
+    harness.get_by_label("Drag a robot on wheels, or drive by keys or pad.");
     click(&mut harness, "Got it");
-    assert!(harness.query_by_label("Click the paper, drive by keys or pad.").is_none());
+    assert!(harness.query_by_label("Drag a robot on wheels, or drive by keys or pad.").is_none());
     let kept = harness.state().app.world().resource::<Interface>().0.settings.hints_away.clone();
     assert_eq!(kept, ["dashboard"], "the settings keep it");
 }
@@ -223,7 +223,7 @@ fn one_key_fills_the_window_with_the_world_in_front() {
 #[test]
 fn hints_are_ticked_off_as_they_are_done_and_come_back_by_a_key() {
     let mut harness = lab(WIDE);
-    let (first, hint) = ("Click the paper, drive by keys or pad.", "Reset: the same seed, the same run.");
+    let (first, hint) = ("Drag a robot on wheels, or drive by keys or pad.", "Reset: the same seed, the same run.");
     assert!(harness.query_by_label(first).is_none(), "put away");
     keys(&mut harness, Key::H, 1);
     harness.get_by_label(first);

@@ -9,7 +9,9 @@ use super::keys::{BINDINGS, Scope};
 const KEYS: f32 = 92.0;
 
 /// What the pointer does besides clicks.
-const POINTER: [(&str, &str); 3] = [
+const POINTER: [(&str, &str); 5] = [
+    ("drag a body", "tow the rover or the car by its own commands"),
+    ("Alt+drag", "put it elsewhere, not driven; Ctrl+drag does too"),
     ("wheel, pinch", "magnify the world, or show more of it"),
     ("drag", "move a world that is magnified"),
     ("double click", "show the whole of it"),

@@ -101,6 +101,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     let stage = if state.widget == Widget::Dashboard {
         if !state.is_covered() {
             drive::drive(ui, model, state, commands);
+        } else if state.tow.is_some() {
+            drive::let_go(state, commands);
         }
         dashboard::twins::go_on(model, state, commands);
         dashboard::view::dashboard(ui, model, history, &look, state, commands)

@@ -39,6 +39,7 @@ pub(crate) use cspace::{CspaceState, LinkedState, TRAIL};
 pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingExercise;
 pub(crate) use dashboard::hand::arm::{joints, turned};
+pub(crate) use dashboard::hand::held_tow::HeldTow;
 pub(crate) use dashboard::twin_state::AskedTwin;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard, ShownClearance};
 pub(crate) use lab::lab;

@@ -67,6 +67,8 @@ pub struct UiState {
     pub held: (i16, i16),
     /// The channels of the pad on the screen, from -128 to 128, the maximum.
     pub pad: (i16, i16),
+    /// The robot that the pointer tows.
+    pub tow: Option<super::HeldTow>,
     /// Where the pad is in this frame, if it has a place off the paper.
     pub pad_place: Option<Rect>,
     /// The channels of a gamepad's stick, from -128 to 128, the maximum.

@@ -10,6 +10,7 @@ mod kinds;
 mod refusals;
 mod state;
 mod tour;
+mod tow;
 
 use motion_lab_core::prelude::*;
 use motion_lab_sim::run::{Event, Frame, Quantized, RobotInput, Script};

@@ -66,6 +66,8 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     let words = if robot.is_arm {
         let finely = if touched { "" } else { "; arrows turn the joint, with Shift finely, Esc lets go" };
         format!("{}{finely}", joints_to_drag(robot))
+    } else if state.tow.as_ref().is_some_and(|tow| tow.robot == robot.name) {
+        "towed by its own commands; let go, and it stands".to_owned()
     } else if sideways {
         "steering alone moves nothing: driven, no car slides sideways".to_owned()
     } else if touched {

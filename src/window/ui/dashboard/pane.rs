@@ -153,7 +153,7 @@ pub fn paper(
         let words = if robot.is_arm {
             format!("{} is moved by its joints: {}", robot.name, joints_to_drag(robot))
         } else if is_placeable(robot) {
-            format!("Click to drive {}; drag its body to put it elsewhere", robot.name)
+            bodies::hover_words(robot)
         } else {
             format!("Click to drive {}", robot.name)
         };
@@ -182,7 +182,8 @@ fn followed(
     whole: &Fit,
     scale: f32,
 ) -> Option<Fit> {
-    if camera.zoom <= 1.0 || state.held == (0, 0) {
+    // a view that went along would take the pointer's place along too, and a tow would never end
+    if camera.zoom <= 1.0 || state.held == (0, 0) || state.tow.is_some() {
         return None;
     }
     let robot = cockpit.robots.iter().find(|robot| state.armed.as_ref() == Some(&robot.name))?;

@@ -1,7 +1,9 @@
-//! Robots on wheels, dragged by their bodies.
+//! Robots on wheels, dragged by their bodies: towed, or with Alt put elsewhere.
 
 use bevy_egui::egui::{CursorIcon, Id, Pos2, Rect, Response, Sense, Ui, Vec2, WidgetInfo, WidgetType, pos2};
 
+use super::held_tow::Gripped;
+use super::tow;
 use crate::window::ui::cspace::put_at::{footprint_to_come, is_placeable, put_at, robots_in_the_way, to_come};
 use crate::window::ui::dashboard::doors;
 use crate::window::ui::paint::canvas;
@@ -20,6 +22,9 @@ const BODY_TARGET: f32 = 28.0;
 /// What is said of a robot that the pointer puts elsewhere: its wheels do not turn.
 const PUT: &str = "put, not driven";
 
+/// What a robot is taken by.
+const BODY: &str = "its body";
+
 /// The robot of a cockpit that is nearest to a point, at most `reach` metres away.
 pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRobot> {
     let point = Footprint::disc(at, 1e-9);
@@ -28,9 +33,25 @@ pub fn robot_at(cockpit: &Cockpit, at: Point2, reach: f64) -> Option<&CockpitRob
     near.min_by(|(one, _), (other, _)| one.total_cmp(other)).map(|(_, robot)| robot)
 }
 
-/// Lets the pointer drag a cockpit's robots on wheels, and shows where each will be put by the next tick. While such a
-/// place waits, it can be dragged as well as the body. A robot that would overlap or touch something stays where it is,
-/// and what is in its way is drawn as in contact. The same is drawn for a refused drag of the robot's point or heading.
+/// What is said of a robot that is pointed at.
+pub fn hover_words(robot: &CockpitRobot) -> String {
+    if tow::is_towable(robot) {
+        format!("Click to drive {}, drag to tow it, Alt-drag to put it elsewhere", robot.name)
+    } else {
+        format!("Click to drive {}; drag its body to put it elsewhere", robot.name)
+    }
+}
+
+/// Whether a drag that begins now puts a robot elsewhere: with Alt, or with Ctrl, because some window managers move the
+/// window by Alt.
+fn is_to_put(ui: &Ui, robot: &CockpitRobot) -> bool {
+    !tow::is_towable(robot) || ui.input(|i| i.modifiers.alt || i.modifiers.command)
+}
+
+/// Lets the pointer drag a cockpit's robots on wheels. A drag tows the robot; with Alt it puts the robot elsewhere, by
+/// the next tick, and shows where. While such a place waits, it can be dragged as well as the body. A robot that would
+/// overlap or touch something there stays where it is, and what is in its way is drawn as in contact. The same is drawn
+/// for a refused drag of the robot's point or heading.
 /// A click on a door beside a body opens or closes the door. Returns the robot that the pointer is pressed on, and
 /// whether it was clicked.
 pub fn bodies<'a>(
@@ -54,7 +75,7 @@ pub fn bodies<'a>(
         let there = footprint_to_come(robot);
         let mut over: Vec<Item> = Vec::new();
         let mut refused = by_point.as_ref().filter(|(of, _)| *of == robot.name).map(|(_, there)| there.clone());
-        let mut grips = vec![Grip { of: "its body", from: to_come(robot), footprint: &there }];
+        let mut grips = vec![Grip { of: BODY, from: to_come(robot), footprint: &there }];
         if robot.target.is_some() {
             over.extend(ghost(robot, &there));
             // where both lie over one another, the place to come is in front
@@ -76,18 +97,29 @@ pub fn bodies<'a>(
             } else if response.clicked() || response.is_pointer_button_down_on() {
                 pressed = Some((robot, response.clicked()));
             }
-            if !was_pinched && let Some(to) = grip.dragged_to(ui, &response, fit, commands) {
-                refused = put_at(cockpit, robot, to, &state.linked, commands);
-                ui.data_mut(|data| data.insert_temp(response.id.with("refused"), refused.clone()));
+            if response.is_pointer_button_down_on() && ui.input(|i| i.pointer.any_pressed()) {
+                grip.press(ui, robot, &response, fit);
             }
-            is_put |= response.dragged();
+            if response.drag_started() && !was_pinched {
+                grip.take(ui, robot, &response, fit, state, commands);
+            }
+            if !was_pinched && let Some(to) = grip.put_to(ui, &response, fit) {
+                refused = put_at(cockpit, robot, to, &state.linked, commands);
+                is_put = true;
+                ui.data_mut(|data| data.insert_temp(response.id.with("refused"), refused.clone()));
+            } else if let Some(at) = response.interact_pointer_pos().filter(|_| response.dragged() && !was_pinched) {
+                over.extend(tow::pull(ui, robot, world_at(fit, at), state));
+            }
             if response.drag_stopped() {
+                // what it towed is let go in the next frame
+                ui.ctx().request_repaint();
+                ui.data_mut(|data| data.remove::<Option<Vector2>>(response.id));
                 let last: Option<Option<Footprint>> = ui.data_mut(|data| data.remove_temp(response.id.with("refused")));
                 if let Some(text) = last.flatten().and_then(|there| why_not(cockpit, robot, &there, &state.linked)) {
                     state.say(Notice { text, is_error: false });
                 }
             }
-            let at_rest = (CursorIcon::Grab, format!("Click to drive {}, drag to put it elsewhere", robot.name));
+            let at_rest = (CursorIcon::Grab, hover_words(robot));
             let (cursor, words) = door.map_or(at_rest, |door| (CursorIcon::PointingHand, doors::words(door)));
             let cursor = if response.dragged() { CursorIcon::Grabbing } else { cursor };
             response.on_hover_cursor(cursor).on_hover_text(words);
@@ -119,24 +151,52 @@ impl Grip<'_> {
     fn show(&self, ui: &mut Ui, robot: &CockpitRobot, paper: Rect, fit: &Fit) -> Option<Response> {
         // the arrow keys drive: no key goes to the body
         let id = Id::new((&robot.name, self.of));
-        let response = ui.interact(hit(self.footprint, paper, fit)?, id, Sense::CLICK | Sense::DRAG);
+        let pointer = ui.input(|i| i.pointer.latest_pos());
+        let response = ui.interact(hit(self.footprint, paper, fit, pointer)?, id, Sense::CLICK | Sense::DRAG);
         let words = format!("{}: {}, to be dragged", robot.name, self.of);
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, &words));
         Some(response)
     }
 
-    /// Where a drag takes the robot's reference point.
-    fn dragged_to(&self, ui: &Ui, response: &Response, fit: &Fit, commands: &mut Vec<Command>) -> Option<Point2> {
-        let (&[x, y, ..], Some(at)) = (self.from, response.interact_pointer_pos()) else { return None };
-        let at = world_at(fit, at);
-        if response.drag_started() {
+    /// Notes what a press grips: a drag is known as one only after some points, and the robot may go on meanwhile.
+    fn press(&self, ui: &Ui, robot: &CockpitRobot, response: &Response, fit: &Fit) {
+        let Some(at) = response.interact_pointer_pos() else { return };
+        let gripped = tow::gripped(robot, self.from, world_at(fit, at));
+        ui.data_mut(|data| data.insert_temp(response.id.with("gripped"), gripped));
+    }
+
+    /// Begins a drag: takes the robot in hand to tow it, or notes how far its reference point is from where it was
+    /// pressed.
+    fn take(
+        &self,
+        ui: &Ui,
+        robot: &CockpitRobot,
+        response: &Response,
+        fit: &Fit,
+        state: &mut UiState,
+        commands: &mut Vec<Command>,
+    ) {
+        let pressed = ui.input(|i| i.pointer.press_origin()).or(response.interact_pointer_pos());
+        let (&[x, y, ..], Some(pressed)) = (self.from, pressed) else { return };
+        let pressed = world_at(fit, pressed);
+        // where it is still, it will not be with the next tick: that was put, and may be put anew
+        let off = (self.of != BODY || is_to_put(ui, robot)).then(|| Point2::new(x, y) - pressed);
+        ui.data_mut(|data| data.insert_temp(response.id, off));
+        if off.is_some() {
             commands.push(Command::from(TransportCommand::Checkpoint));
-            // a drag is known as one only after some points
-            let pressed = ui.input(|i| i.pointer.press_origin()).map_or(at, |at| world_at(fit, at));
-            ui.data_mut(|data| data.insert_temp(response.id, Point2::new(x, y) - pressed));
+            return;
         }
-        let off: Vector2 = ui.data(|data| data.get_temp(response.id)).unwrap_or_default();
-        response.dragged().then(|| at + off)
+        let gripped: Option<Option<Gripped>> = ui.data(|data| data.get_temp(response.id.with("gripped")));
+        if let Some(gripped) = gripped.flatten().or_else(|| tow::gripped(robot, self.from, pressed)) {
+            tow::take(robot, gripped, state, commands);
+        }
+    }
+
+    /// Where a drag puts the robot's reference point; `None` where it does not.
+    fn put_to(&self, ui: &Ui, response: &Response, fit: &Fit) -> Option<Point2> {
+        let off: Option<Option<Vector2>> = ui.data(|data| data.get_temp(response.id));
+        let at = response.interact_pointer_pos().filter(|_| response.dragged())?;
+        Some(world_at(fit, at) + off.flatten()?)
     }
 }
 
@@ -190,11 +250,16 @@ fn label(id: &str, words: &str, over: &Footprint) -> Option<Item> {
     Some(Item::new(id, words, Role::Text, drawing))
 }
 
-/// The area that takes the pointer on the first part of a robot; `None` if it is off the paper.
-fn hit(footprint: &Footprint, paper: Rect, fit: &Fit) -> Option<Rect> {
-    let body = footprint.parts().first()?.placed().bounds();
+/// The area that takes the pointer on the first part of a robot, all of it while the pointer is there; `None` if it is
+/// off the paper.
+fn hit(footprint: &Footprint, paper: Rect, fit: &Fit, pointer: Option<Pos2>) -> Option<Rect> {
+    let part = footprint.parts().first()?;
+    let body = part.placed().bounds();
     let [x, y] = fit.screen_from_world(body.centre());
-    let side = lesser(body.max.x - body.min.x, body.max.y - body.min.y) * fit.px_per_metre();
-    let square = Rect::from_center_size(pos2(x as f32, y as f32), Vec2::splat((side as f32).max(BODY_TARGET)));
-    Some(square.intersect(paper)).filter(Rect::is_positive)
+    let size = [body.max.x - body.min.x, body.max.y - body.min.y].map(|side| (side * fit.px_per_metre()) as f32);
+    let point = pointer.map(|at| Footprint::disc(world_at(fit, at), 1e-9));
+    let is_on = point.is_some_and(|point| footprint_distance(&point, &Footprint::new([part.clone()])) == 0.0);
+    let size = if is_on { Vec2::from(size) } else { Vec2::splat(size[0].min(size[1])) };
+    let area = Rect::from_center_size(pos2(x as f32, y as f32), size.max(Vec2::splat(BODY_TARGET)));
+    Some(area.intersect(paper)).filter(Rect::is_positive)
 }

@@ -1,4 +1,4 @@
-//! Driving the robot in hand, with the arrow keys or the pad.
+//! Driving the robot in hand: with the arrow keys, the pad, or the pointer that tows it.
 
 use bevy_egui::egui::{InputState, Key, Popup, Ui};
 
@@ -24,14 +24,16 @@ fn channels(input: &InputState) -> (i16, i16) {
     })
 }
 
-/// Drives the robot in hand by the arrow keys, by the pad while no arrow key is held, or by a gamepad's stick.
+/// Drives the robot in hand by the arrow keys, by the pad while no arrow key is held, by a gamepad's stick, or by the
+/// pointer that tows it.
 ///
 /// Taking a robot in hand is no input: it goes on with its tour until the first key. A key pressed while the run is
-/// paused starts it, so that the robot is seen to move. Everything between two rests is undone at once.
+/// paused starts it, so that the robot is seen to move. Everything between two rests is undone at once, and so is a
+/// whole tow.
 pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
     let Some(robot) = state.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
-        state.armed = None;
+        (state.armed, state.tow) = (None, None);
         (state.held, state.pad) = ((0, 0), (0, 0));
         let is_asked = ui.input(|i| i.key_pressed(Key::ArrowUp) || i.key_pressed(Key::ArrowDown));
         let is_seen = robots().any(|r| r.drivable) && !(state.settings.plots && state.is_narrow);
@@ -43,12 +45,18 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
     };
     let elsewhere = ui.memory(|m| m.focused().is_some());
     let keys = if elsewhere { (0, 0) } else { ui.input(channels) };
-    let wanted = [keys, state.pad, state.stick].into_iter().find(|channels| *channels != (0, 0)).unwrap_or_default();
+    state.tow = state.tow.take().filter(|tow| tow.robot == robot).and_then(|tow| tow.go_on(model.tick));
+    let towed = state.tow.as_ref().map_or((0, 0), |tow| tow.channels);
+    let by_hand = [keys, state.pad, state.stick, towed];
+    let wanted = by_hand.into_iter().find(|channels| *channels != (0, 0)).unwrap_or_default();
     if wanted == state.held {
         return;
     }
     if state.held == (0, 0) {
-        commands.push(Command::from(TransportCommand::Checkpoint));
+        let has_driven = state.tow.as_mut().is_some_and(|tow| std::mem::replace(&mut tow.has_driven, true));
+        if !has_driven {
+            commands.push(Command::from(TransportCommand::Checkpoint));
+        }
         if !model.playing {
             commands.push(Command::from(TransportCommand::Play));
         }
@@ -58,7 +66,7 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
 
 /// Lets go of the robot in hand and sets its channels to 0, so that it does not drive on by itself.
 pub fn let_go(state: &mut UiState, commands: &mut Vec<Command>) {
-    state.pad = (0, 0);
+    (state.pad, state.tow) = ((0, 0), None);
     if let Some(robot) = state.armed.take().filter(|_| state.held != (0, 0)) {
         hold(robot, (0, 0), state, commands);
     }
