@@ -160,7 +160,7 @@ mod tests {
     #[test]
     fn widgets_come_in_reading_order_with_what_a_control_needs() {
         let nodes = [
-            (0, node(Role::Window, |n| n.set_children([99, 4, 1].map(NodeId::from)))),
+            (0, node(Role::Window, |n| n.set_children([99, 1, 4].map(NodeId::from)))),
             (1, node(Role::GenericContainer, |n| n.set_children([2, 3, 9, 11, 12, 13].map(NodeId::from)))),
             (
                 2,
@@ -218,26 +218,25 @@ mod tests {
         assert_eq!(
             named,
             [
-                ("Dashboard", ControlKind::Text),
                 ("Play", ControlKind::Button),
                 ("speed", ControlKind::Slider),
                 ("Dashboard", ControlKind::Field),
                 ("elbow", ControlKind::Handle),
                 ("world", ControlKind::Combo),
                 ("the configuration", ControlKind::Image),
+                ("Dashboard", ControlKind::Text),
             ]
         );
-        assert!(found[1].focus && !found[0].focus);
-        assert_eq!((found[2].range, found[2].off_limits), (Some([0.125, 1e9, 0.0]), true));
-        assert_eq!([1, 5].map(|i| found[i].open), [None, Some(false)]);
-        assert_eq!([3, 5].map(|i| found[i].value.as_deref()), [Some("2005"), Some("Lot")]);
+        assert!(found[0].focus && !found[1].focus);
+        assert_eq!((found[1].range, found[1].off_limits), (Some([0.125, 1e9, 0.0]), true));
+        assert_eq!([0, 4].map(|i| found[i].open), [None, Some(false)]);
+        assert_eq!([2, 4].map(|i| found[i].value.as_deref()), [Some("2005"), Some("Lot")]);
         assert_eq!(
-            serde_json::to_string(&found[1]).unwrap(),
-            r#"{"id":"2","kind":"button","name":"Play","place":[1,2,40,28],"layer":"1","focus":true}"#
+            serde_json::to_string(&found[0]).unwrap(),
+            r#"{"id":"2","kind":"button","name":"Play","place":[1,2,40,28],"focus":true}"#
         );
-        // one more layer in which there is nothing, as an empty tooltip
+        // the layer 99 has nothing in it
         let layers: Vec<Option<&str>> = found.iter().map(|widget| widget.layer.as_deref()).collect();
-        assert_eq!(layers[0], None, "what lies at the bottom");
-        assert!(layers[1..].iter().all(|layer| *layer == Some("1")), "{layers:?}");
+        assert_eq!(layers, [None, None, None, None, None, None, Some("4")]);
     }
 }

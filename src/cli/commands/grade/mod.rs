@@ -58,8 +58,8 @@ Examples:
 pub struct GradeArgs {
     /// The assignment, RON.
     assignment: PathBuf,
-    /// The submissions: scripts, logs named .mcap and saved pages named .html; a folder stands for those in it, and says what else it
-    /// holds; a pattern in quotes, as "week3/*.ron", for the files that match.
+    /// The submissions: scripts, logs named .mcap and saved pages named .html; a folder stands for those in it, and
+    /// says what else it holds; a pattern in quotes, as "week3/*.ron", for the files that match.
     #[arg(required = true, value_name = "SUBMISSION")]
     submissions: Vec<PathBuf>,
     /// How the grades are written. [default: table]
@@ -125,7 +125,7 @@ impl GradeArgs {
         for ((path, name), number) in files.iter().zip(&names).zip(0_u64..) {
             let before = number * seeds * ticks;
             let graded = match read_submission(path, &self.expected) {
-                Ok(Read::Submission(submission)) => {
+                Ok(SubmissionFile::Submission(submission)) => {
                     let grade = assignment.grade_watched(&submission, |attempt, tick| {
                         progress.at(before + attempt as u64 * ticks + tick)
                     });
@@ -134,11 +134,11 @@ impl GradeArgs {
                     }
                     Graded::new(name.clone(), &assignment, &grade)
                 }
-                Ok(Read::Refused(reason)) => Graded::refused(name.clone(), &assignment, reason),
-                Ok(Read::Forged(reason)) => {
+                Ok(SubmissionFile::Refused(reason)) => Graded::refused(name.clone(), &assignment, reason),
+                Ok(SubmissionFile::Forged(reason)) => {
                     Graded { forged_at: Some(0), ..Graded::refused(name.clone(), &assignment, reason) }
                 }
-                Ok(Read::None(reason)) => Graded::not_graded(name.clone(), &assignment, reason),
+                Ok(SubmissionFile::None(reason)) => Graded::not_graded(name.clone(), &assignment, reason),
                 Err(failure @ Failure::Input { .. }) => {
                     is_missing = true;
                     let reason = reason_of(&failure, name);
@@ -193,7 +193,7 @@ fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
 }
 
 /// What a file holds.
-enum Read {
+enum SubmissionFile {
     /// A submission.
     Submission(Submission),
     /// A log whose end seals the digest of another run, though its frames are those of what it says.
@@ -205,21 +205,21 @@ enum Read {
 }
 
 /// What a file holds. Only one that can't be read at all is a failure.
-fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Read, Failure> {
+fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<SubmissionFile, Failure> {
     if path.is_dir() {
-        return Ok(Read::None("no script, log or table is in this folder".into()));
+        return Ok(SubmissionFile::None("no script, log or table is in this folder".into()));
     }
     if ["mcap", "html", "htm"].contains(&&*ending(path)) {
         return Ok(read_run(&read_bytes(path, MAX_LOG)?, expected));
     }
     let bytes = read_bytes(path, MAX_TEXT)?;
     if expected.is_any() {
-        return Ok(Read::Refused("no log: --expect asks for one with this run digest".into()));
+        return Ok(SubmissionFile::Refused("no log: --expect asks for one with this run digest".into()));
     }
     if ending(path) == "csv" {
         let (file, ron) = (path.display(), path.with_extension("ron"));
         let ron = ron.display();
-        return Ok(Read::None(format!(
+        return Ok(SubmissionFile::None(format!(
             "a table is no script; make one of it: motion-lab script convert {file} -o {ron}"
         )));
     }
@@ -227,22 +227,22 @@ fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Read, Fail
     let script = String::from_utf8(bytes)
         .map_err(|_| "no script: it is not UTF-8".to_owned())
         .and_then(|text| Script::parse(&file, &text).map_err(|error| error.to_string()));
-    Ok(script.map_or_else(Read::None, |script| Read::Submission(Submission::Script(script))))
+    Ok(script.map_or_else(SubmissionFile::None, |script| SubmissionFile::Submission(Submission::Script(script))))
 }
 
 /// The run in the bytes of a log or of a saved page.
-fn read_run(bytes: &[u8], expected: &ExpectedDigests) -> Read {
+fn read_run(bytes: &[u8], expected: &ExpectedDigests) -> SubmissionFile {
     let log = match Log::read_mcap(bytes) {
         Ok(read) => read.log,
         // where a frame was changed too, the replay finds the first
-        Err(LogError::OtherRun(other)) if replays(&other.read.log) => return Read::Forged(other.to_string()),
+        Err(LogError::OtherRun(other)) if replays(&other.read.log) => return SubmissionFile::Forged(other.to_string()),
         Err(LogError::OtherRun(other)) => other.read.log,
-        Err(error) => return Read::None(error.to_string()),
+        Err(error) => return SubmissionFile::None(error.to_string()),
     };
     // the digest of a long log takes a while
     let digest = if expected.is_any() { log.digest() } else { None };
     let refusal = digest.and_then(|digest| expected.refusal(digest));
-    refusal.map_or_else(|| Read::Submission(Submission::Log(Box::new(log))), Read::Refused)
+    refusal.map_or_else(|| SubmissionFile::Submission(Submission::Log(Box::new(log))), SubmissionFile::Refused)
 }
 
 /// Whether a log's frames are those of its own settings and script.

@@ -24,10 +24,10 @@ pub struct Submissions {
     pub left_out: Vec<(PathBuf, &'static str)>,
 }
 
-/// The files that `names` name, in their order. A folder stands for the scripts, logs, pages and tables in it and in its
-/// folders, by name, but for the file `assignment`; whatever else it holds is left out by name. A pattern with `*` or
-/// `?` that is no file's name stands for the files that match it. A folder or a pattern without any stays itself. Any
-/// other name is taken as it is, whether there is such a file or not.
+/// The files that `names` name, in their order. A folder stands for the scripts, logs, pages and tables in it and in
+/// its folders, by name, but for the file `assignment`; whatever else it holds is left out by name. A pattern with `*`
+/// or `?` that is no file's name stands for the files that match it. A folder or a pattern without any stays itself.
+/// Any other name is taken as it is, whether there is such a file or not.
 pub fn find(names: &[PathBuf], assignment: &Path) -> Result<Submissions, Failure> {
     let own = fs::canonicalize(assignment).ok();
     let is_assignment = |file: &PathBuf| own.is_some() && fs::canonicalize(file).ok() == own;
