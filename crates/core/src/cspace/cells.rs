@@ -155,6 +155,45 @@ impl CellMap {
         self.nodes.iter().filter(|node| node.children.is_none()).map(|node| &node.cell)
     }
 
+    /// The number of the tree's nodes, of which the leaves are some.
+    pub(super) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The cell of a node of the tree.
+    pub(super) fn cell(&self, number: usize) -> &Cell {
+        &self.nodes[number].cell
+    }
+
+    /// As [`leaves`](Self::leaves), with the numbers of their nodes.
+    pub(super) fn numbered_leaves(&self) -> impl Iterator<Item = (usize, &Cell)> {
+        let leaves = self.nodes.iter().enumerate().filter(|(_, node)| node.children.is_none());
+        leaves.map(|(number, node)| (number, &node.cell))
+    }
+
+    /// The columns and the rows of the finest level that a cell covers, each range without its last.
+    pub(super) fn span(&self, cell: &Cell) -> [[u32; 2]; 2] {
+        let scale = 1_u32 << (self.finest - cell.level);
+        [cell.column, cell.row].map(|index| [index * scale, (index + 1) * scale])
+    }
+
+    /// The numbers of the leaves that cover any of these columns and rows of the finest level.
+    pub(super) fn leaves_within(&self, ranges: [[u32; 2]; 2]) -> Vec<usize> {
+        let (mut found, mut open) = (Vec::new(), vec![0]);
+        while let Some(number) = open.pop() {
+            let node = &self.nodes[number];
+            let span = self.span(&node.cell);
+            if (0..2).any(|i| span[i][1] <= ranges[i][0] || ranges[i][1] <= span[i][0]) {
+                continue;
+            }
+            match node.children {
+                Some(first) => open.extend((0..4).map(|k| (first + k) as usize)),
+                None => found.push(number),
+            }
+        }
+        found
+    }
+
     /// The states as an image of `2^level` by `2^level` cells, row after row from the least coordinates. `level` is
     /// limited to [`finest`](Self::finest). A cell of the image that the map has cut further is unknown.
     pub fn raster(&self, level: u32) -> Vec<CellState> {
