@@ -360,4 +360,39 @@ mod tests {
         let slice = Slice::through(&crate::collision::Checker::new(crate::collision::Scene::lot(), car), &q).unwrap();
         assert!(slice.holds(&q.with(0, 3.0)) && !slice.holds(&q.with(2, 0.5)), "another heading, another slice");
     }
+    #[test]
+    fn neighbours_overlap_in_real_numbers_and_cover_the_whole_slice() {
+        // sides that no power of two divides, so that places are rounded
+        let (robot, q) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
+        let bounds = crate::geometry::Aabb { min: [-0.1, 0.7].into(), max: [1234.7, 8.3].into() };
+        let scene = crate::collision::Scene::empty(bounds);
+        let rover = Slice::through(&crate::collision::Checker::new(scene, robot), &q).unwrap();
+        for slice in [rover, map(false, 3).slice().clone()] {
+            let map = CellMap::new(slice, MAX_LEVEL);
+            // in units of 2^-60, to within one
+            let exact = |x: f64| {
+                (x * f64::from(1_u32 << 30)) as i128 * (1 << 30)
+                    + ((x * f64::from(1_u32 << 30)).fract() * f64::from(1_u32 << 30)) as i128
+            };
+            for level in [1, 7, MAX_LEVEL] {
+                let ends = |index: u32| {
+                    let cell = Cell { level, column: index, row: index, state: CellState::Unknown };
+                    let (middle, half) = map.place(&cell);
+                    let half = map.slice().grown(half);
+                    [0, 1].map(|i| [exact(middle[i]) - exact(half[i]), exact(middle[i]) + exact(half[i])])
+                };
+                let last = (1 << level) - 1;
+                for i in 0..2 {
+                    for index in 0..last {
+                        assert!(ends(index)[i][1] > ends(index + 1)[i][0], "level {level}, {index}");
+                    }
+                    // a turn is 2.5e-16 more than twice the double nearest to half a turn: 283 units
+                    let beyond = if map.slice().wraps() { 283 } else { 0 };
+                    let [first, end] = [ends(0)[i][0], ends(last)[i][1]];
+                    let [min, max] = [map.slice().min()[i], map.slice().max()[i]].map(exact);
+                    assert!(first + beyond < min && end > max + beyond, "level {level}");
+                }
+            }
+        }
+    }
 }
