@@ -33,8 +33,8 @@ pub struct BarrierCell {
 /// another. Nor can it go between two cells that share a corner alone, since the corner belongs to both.
 ///
 /// So the proof rests on these, which another program can compute anew, as `tests/peers/barrier.py` does:
-/// - that at the middle of each cell the part is as deep in the obstacle as [`Blocking::depth`] says, and no point of it
-///   moves farther within the cell than [`Blocking::bound`];
+/// - that at the middle of each cell the part is as deep in the obstacle as [`Blocking::depth`] says, and no point of
+///   it moves farther within the cell than [`Blocking::bound`];
 /// - that the cells, at their exact places, part the two ends. Angles wrap;
 /// - that robot, obstacles and bounds are those that were meant.
 ///

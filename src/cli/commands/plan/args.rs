@@ -95,8 +95,8 @@ pub struct PlanArgs {
     /// Write how the planner grows, in the workspace and in the configuration space, to this file as GIF.
     #[arg(long, value_name = "FILE", conflicts_with = "compare")]
     pub(super) gif: Option<PathBuf>,
-    /// Where there is no path, write the proof to this file, as JSON: blocked cells of the configuration space that part
-    /// the start from the goal. By cell-decomposition, which then need not be named.
+    /// Where there is no path, write the proof to this file, as JSON: blocked cells of the configuration space that
+    /// part the start from the goal. By cell-decomposition, which then need not be named.
     #[arg(long, value_name = "FILE", conflicts_with = "compare")]
     pub(super) barrier: Option<PathBuf>,
     /// Print the result as JSON.

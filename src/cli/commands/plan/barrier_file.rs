@@ -6,7 +6,7 @@ use motion_lab::export::JsonNumber;
 use motion_lab::plans::{PlanAttempt, Task};
 use serde::Serialize;
 
-use crate::cli::commands::query::{Dimensions, Shapes};
+use crate::cli::commands::query::{Dimensions, ObstacleShapes};
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
 use crate::cli::support::words::counted;
@@ -18,15 +18,15 @@ const VERSION: u32 = 1;
 /// Blocked cells that part a start from a goal, with all that another program needs to check them by its own geometry,
 /// as `tests/peers/barrier.py` does.
 ///
-/// A cell is all configurations within `half` of `middle` in each coordinate, its sides too. There `part` is deeper in a
-/// shape of `obstacle` than any of its points moves within the cell.
+/// A cell is all configurations within `half` of `middle` in each coordinate, its sides too. At its middle `part` is
+/// deeper in a shape of `obstacle` than any of its points moves within the cell.
 #[derive(Debug, Serialize)]
 pub struct BarrierFile {
     version: u32,
     kind: &'static str,
     program: &'static str,
     /// The bounds, and the shapes that the cells name, each larger by `clearance`.
-    world: Shapes,
+    world: ObstacleShapes,
     /// A rover is larger by `tube`.
     robot: Dimensions,
     tube: JsonNumber,
@@ -71,7 +71,7 @@ impl BarrierFile {
             version: VERSION,
             kind: "barrier",
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")),
-            world: Shapes::numbered(&task.world.name, scene, is_named),
+            world: ObstacleShapes::numbered(&task.world.name, scene, is_named),
             robot: Dimensions::of(robot),
             tube: JsonNumber(if task.planned() == task.robot { 0.0 } else { task.tube }),
             clearance: JsonNumber(task.clearance.unwrap_or(0.0)),

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::answer::{EdgeAnswer, edge};
 use super::dimensions::Dimensions;
-use super::shapes::Shapes;
+use super::shapes::ObstacleShapes;
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure};
@@ -25,7 +25,7 @@ const VERSION: u32 = 1;
 pub struct EdgeCertificate {
     version: u32,
     program: &'static str,
-    world: Shapes,
+    world: ObstacleShapes,
     robot: Dimensions,
     motion: ChartLine,
     margin: JsonNumber,
@@ -78,7 +78,7 @@ impl EdgeCertificate {
         Ok(EdgeCertificate {
             version: VERSION,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")),
-            world: Shapes::all(world, scene),
+            world: ObstacleShapes::all(world, scene),
             robot: Dimensions::of(robot),
             motion: ChartLine { kind: "chart line", from: numbers(&line.at(0.0)), to: numbers(&line.at(1.0)) },
             margin: JsonNumber(proof.margin()),

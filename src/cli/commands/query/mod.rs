@@ -28,7 +28,7 @@ pub use chosen::Chosen;
 pub use dimensions::Dimensions;
 use line::{QuerySubject, parse_line};
 use lines::Lines;
-pub use shapes::Shapes;
+pub use shapes::ObstacleShapes;
 
 use crate::cli::support::choices::{self, KINDS, NumberList, RobotsAndKinds, WorldNames};
 use crate::cli::support::gate::read_stdin;

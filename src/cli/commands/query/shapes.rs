@@ -1,4 +1,4 @@
-//! `Shapes`, the shapes of a world's obstacles as JSON, for programs that check a proof.
+//! `ObstacleShapes`, the shapes of a world's obstacles as JSON, for programs that check a proof.
 
 use motion_lab::collision::{ObstacleId, Scene};
 use motion_lab::export::JsonNumber;
@@ -9,7 +9,7 @@ use super::answer::{name, point};
 
 /// The shapes of a world's obstacles.
 #[derive(Debug, Serialize)]
-pub struct Shapes {
+pub struct ObstacleShapes {
     name: String,
     /// The least and the greatest corner of the world, where a proof is about paths within it.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -30,20 +30,20 @@ struct ShapeEntry {
     radius: JsonNumber,
 }
 
-impl Shapes {
+impl ObstacleShapes {
     /// All shapes of a world of this name.
-    pub fn all(world: &str, scene: &Scene) -> Shapes {
+    pub fn all(world: &str, scene: &Scene) -> ObstacleShapes {
         let entry = |(id, piece)| ShapeEntry::new(scene, id, piece);
-        Shapes { name: world.to_owned(), bounds: None, obstacles: scene.pieces().map(entry).collect() }
+        ObstacleShapes { name: world.to_owned(), bounds: None, obstacles: scene.pieces().map(entry).collect() }
     }
 
     /// The world's bounds, and the shapes of these obstacles of it with their numbers.
-    pub fn numbered(world: &str, scene: &Scene, is_named: impl Fn(ObstacleId) -> bool) -> Shapes {
+    pub fn numbered(world: &str, scene: &Scene, is_named: impl Fn(ObstacleId) -> bool) -> ObstacleShapes {
         let bounds = scene.bounds();
         let pieces = scene.pieces().filter(|(id, _)| is_named(*id));
         let entry =
             |(id, piece): (ObstacleId, _)| ShapeEntry { obstacle: Some(id.0), ..ShapeEntry::new(scene, id, piece) };
-        Shapes {
+        ObstacleShapes {
             name: world.to_owned(),
             bounds: Some([point(bounds.min), point(bounds.max)]),
             obstacles: pieces.map(entry).collect(),
