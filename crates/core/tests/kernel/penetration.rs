@@ -107,8 +107,9 @@ fn the_deepest_part_is_named_with_what_it_is_deepest_in() {
     let overlap = scene.deepest(&Footprint::new([disc(0.0, 0.3), disc(10.1, 0.2)])).unwrap();
     assert_eq!((overlap.part, scene.obstacle_name(overlap.obstacle)), (0, Some("near")));
     // of equal ones the first
-    let overlap = scene.deepest(&Footprint::new([disc(10.0, 0.2), disc(0.0, 0.2)])).unwrap();
-    assert_eq!((overlap.part, scene.obstacle_name(overlap.obstacle)), (0, Some("far")));
+    let twins = scene.clone().with_obstacle_at("twin", Pose2::new(0.0, 0.0, 0.0), square(1.0));
+    let overlap = twins.deepest(&Footprint::new([disc(0.0, 0.2), disc(0.0, 0.2)])).unwrap();
+    assert_eq!((overlap.part, twins.obstacle_name(overlap.obstacle)), (0, Some("near")));
     assert_eq!(scene.deepest(&Footprint::new([disc(5.0, 0.2)])), None);
     assert_eq!(scene.deepest(&Footprint::new([disc(f64::NAN, 0.2)])), None);
     assert_eq!(scene.depth(&Footprint::new([disc(f64::NAN, 0.2)])), f64::INFINITY);

@@ -22,7 +22,7 @@ fn at(x: f64, y: f64) -> AnyConfiguration {
 }
 
 fn turned(th1: f64, th2: f64) -> AnyConfiguration {
-    AnyConfiguration::T2(T2::new(th1, th2))
+    AnyConfiguration::T2(Tn([th1, th2]))
 }
 
 fn square(side: f64) -> Scene {
