@@ -20,6 +20,7 @@ fn main() -> ExitCode {
         Ok(Outcome::BadInput) => 3,
         Ok(Outcome::Differs | Outcome::NotPassed | Outcome::NoPath) => 4,
         Ok(Outcome::Recovered) => 5,
+        Ok(Outcome::Unreachable) => 7,
         Ok(Outcome::Stopped) => 75,
         Err(failure) => {
             say(&failure);

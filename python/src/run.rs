@@ -59,7 +59,8 @@ pub fn read(py: Python<'_>, path: PathBuf) -> PyResult<PyRun> {
 fn is_other(path: &Path) -> bool {
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(4096).read_to_end(&mut head));
-    read.is_ok() && matches!(Log::read_mcap(&head), Err(LabLogError::NotALog | LabLogError::Export | LabLogError::Page(_)))
+    read.is_ok()
+        && matches!(Log::read_mcap(&head), Err(LabLogError::NotALog | LabLogError::Export | LabLogError::Page(_)))
 }
 
 /// The number of the robot of this name.

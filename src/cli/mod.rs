@@ -31,9 +31,10 @@ Exit codes:
    2  the command line is wrong
    3  an input file is missing or wrong
    4  the replay differs from the recording or one log from the other, a graded submission does not pass, a planner has
-      no path, or a contact no way out
+      found no path, or a contact no way out
    5  the file is damaged or unfinished; its sealed beginning was used
    6  there is no display for the window
+   7  a planner has proven that there is no path
   75  stopped early; `record --resume`, or the same `sweep` again, goes on; `plan --compare`, `shrink` and `why` keep
       what they found
  130  ended at once by Ctrl-C or a termination signal

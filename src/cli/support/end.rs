@@ -15,8 +15,10 @@ pub enum Outcome {
     Differs,
     /// A submission does not do what its assignment asks for.
     NotPassed,
-    /// A planner has no path, or its path can't be played.
+    /// A planner has found no path, or its path can't be played.
     NoPath,
+    /// A planner has proven that there is no path.
+    Unreachable,
     /// A damaged or unfinished file was used as far as it is sealed.
     Recovered,
     /// Stopped early, and resumable.

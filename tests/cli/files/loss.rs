@@ -22,7 +22,7 @@ const READ: [&str; 10] = [
 
 /// Options that name files to write, each with command lines that write `OUT` while they read `IN`, and the file that
 /// they read.
-const WRITTEN: [(&str, &[(&str, &str)]); 24] = [
+const WRITTEN: [(&str, &[(&str, &str)]); 25] = [
     (
         "record --output",
         &[
@@ -62,6 +62,7 @@ const WRITTEN: [(&str, &[(&str, &str)]); 24] = [
     ("plan --script", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --script OUT", "wb.ron")]),
     ("plan --record", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --record OUT", "wb.ron")]),
     ("plan --svg", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --svg OUT", "wb.ron")]),
+    ("plan --barrier", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --barrier OUT", "wb.ron")]),
     ("plan --gif", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --gif OUT", "wb.ron")]),
     (
         "plan --csv",
@@ -218,7 +219,7 @@ fn two_outputs_are_never_one_file_whether_it_is_there_or_not() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     fs::create_dir(at.join("sub")).unwrap();
-    let outputs = ["-o", "--script", "--record", "--svg", "--gif"];
+    let outputs = ["-o", "--script", "--record", "--svg", "--gif", "--barrier"];
     let mut names = vec![("x", "x"), ("x", "sub/../x"), ("sub/x", "./sub/x")];
     #[cfg(unix)]
     {

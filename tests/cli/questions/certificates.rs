@@ -115,14 +115,14 @@ fn verified<R: Robot>(robot: R, scene: &Scene, certificate: &Value) {
 
 /// The output of a script of tests/peers about these files. `None` where it can't be run; a message about that bypasses
 /// the tests' capture of output.
-fn peer(script: &str, files: &[PathBuf]) -> Option<Output> {
+pub fn peer(script: &str, files: &[PathBuf]) -> Option<Output> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/peers").join(script);
     let python = Command::new("python3").arg("--version").output().is_ok_and(|output| output.status.success());
     if python && path.exists() {
         return Some(Command::new("python3").arg(path).args(files).output().unwrap());
     }
     let reason = if python { "is not in the package" } else { "needs python3" };
-    let _ = writeln!(std::io::stderr(), "\n!!! SKIPPED: certificates checked by a peer: {script} {reason}");
+    let _ = writeln!(std::io::stderr(), "\n!!! SKIPPED: proofs checked by a peer: {script} {reason}");
     None
 }
 

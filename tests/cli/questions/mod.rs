@@ -1,6 +1,7 @@
 //! Queries, plans and figures.
 
-pub mod black_box;
+pub mod barriers;
+mod black_box;
 pub mod capture;
 pub mod certificates;
 pub mod clearance;

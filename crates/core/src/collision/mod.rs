@@ -38,4 +38,4 @@ pub use question::Collision;
 pub use rows::{Rows, RowsError};
 pub use scene::Scene;
 pub use surroundings::Surroundings;
-pub use witness::{HitBy, ObstacleId, Witness};
+pub use witness::{HitBy, ObstacleId, Overlap, Witness};

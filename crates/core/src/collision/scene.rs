@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use super::ObstacleId;
 use super::boundary::grid::Cells;
 use super::boundary::segments::SegmentSoup;
 use super::broad::frames::Frames;
@@ -11,8 +10,8 @@ use super::narrow::convex::NearestPoints;
 use super::narrow::distance::depth;
 use super::narrow::nearest::NearestSearch;
 use super::narrow::pair::{pair, touch};
+use super::{ObstacleId, Overlap};
 use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, Vertices, largest_coordinate};
-use crate::num::greater;
 use crate::worlds::{Obstacle, World};
 
 /// Largest number of segments and discs for which a scan tests them all; with more it walks through a grid.
@@ -208,17 +207,27 @@ impl Scene {
     /// A lower bound on how far the footprint must move to become free, metres: no displacement that moves every point
     /// by less can free it. 0 when it is free; infinity for a footprint that is not finite.
     pub fn depth(&self, footprint: &Footprint) -> f64 {
-        if !footprint.is_valid() {
-            return f64::INFINITY;
-        }
-        let mut bound = 0.0;
-        for part in footprint.parts() {
-            self.each_within(part.placed(), 0.0, |piece| {
-                bound = greater(depth(part.placed(), &self.pieces[piece]), bound);
+        if footprint.is_valid() { self.deepest(footprint).map_or(0.0, |overlap| overlap.depth) } else { f64::INFINITY }
+    }
+
+    /// Where the footprint is deepest in an obstacle, by the bound of [`depth`](Self::depth); among equals the first
+    /// part and piece in file order. `None` where that bound is 0, and for a footprint that is not finite.
+    pub fn deepest(&self, footprint: &Footprint) -> Option<Overlap> {
+        let mut deepest: Option<(usize, Overlap)> = None;
+        let parts = if footprint.is_valid() { footprint.parts() } else { &[] };
+        for (part, shape) in parts.iter().map(|part| part.placed()).enumerate() {
+            self.each_within(shape, 0.0, |piece| {
+                let found = depth(shape, &self.pieces[piece]);
+                let is_deeper = |(before, overlap): &(usize, Overlap)| {
+                    found > overlap.depth || (found == overlap.depth && part == overlap.part && piece < *before)
+                };
+                if found > 0.0 && deepest.as_ref().is_none_or(is_deeper) {
+                    deepest = Some((piece, Overlap { part, obstacle: ObstacleId(self.owners[piece]), depth: found }));
+                }
                 false
             });
         }
-        bound
+        deepest.map(|(_, overlap)| overlap)
     }
 
     /// A search for the piece nearest to `shape`, if any is nearer than `within`.

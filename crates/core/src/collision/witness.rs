@@ -45,3 +45,14 @@ pub struct Witness {
     /// The obstacle.
     pub obstacle: ObstacleId,
 }
+
+/// Where a footprint is deepest in an obstacle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// The number of the part.
+    pub part: usize,
+    /// The obstacle.
+    pub obstacle: ObstacleId,
+    /// A lower bound on how far the part must move to be free of the obstacle, metres, above 0.
+    pub depth: f64,
+}

@@ -155,6 +155,45 @@ impl CellMap {
         self.nodes.iter().filter(|node| node.children.is_none()).map(|node| &node.cell)
     }
 
+    /// The number of the tree's nodes, of which the leaves are some.
+    pub(super) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// The cell of a node of the tree.
+    pub(super) fn cell(&self, number: usize) -> &Cell {
+        &self.nodes[number].cell
+    }
+
+    /// As [`leaves`](Self::leaves), with the numbers of their nodes.
+    pub(super) fn numbered_leaves(&self) -> impl Iterator<Item = (usize, &Cell)> {
+        let leaves = self.nodes.iter().enumerate().filter(|(_, node)| node.children.is_none());
+        leaves.map(|(number, node)| (number, &node.cell))
+    }
+
+    /// The columns and the rows of the finest level that a cell covers, each range without its last.
+    pub(super) fn span(&self, cell: &Cell) -> [[u32; 2]; 2] {
+        let scale = 1_u32 << (self.finest - cell.level);
+        [cell.column, cell.row].map(|index| [index * scale, (index + 1) * scale])
+    }
+
+    /// The numbers of the leaves that cover any of these columns and rows of the finest level.
+    pub(super) fn leaves_within(&self, ranges: [[u32; 2]; 2]) -> Vec<usize> {
+        let (mut found, mut open) = (Vec::new(), vec![0]);
+        while let Some(number) = open.pop() {
+            let node = &self.nodes[number];
+            let span = self.span(&node.cell);
+            if (0..2).any(|i| span[i][1] <= ranges[i][0] || ranges[i][1] <= span[i][0]) {
+                continue;
+            }
+            match node.children {
+                Some(first) => open.extend((0..4).map(|k| (first + k) as usize)),
+                None => found.push(number),
+            }
+        }
+        found
+    }
+
     /// The states as an image of `2^level` by `2^level` cells, row after row from the least coordinates. `level` is
     /// limited to [`finest`](Self::finest). A cell of the image that the map has cut further is unknown.
     pub fn raster(&self, level: u32) -> Vec<CellState> {
@@ -320,5 +359,40 @@ mod tests {
         let (car, q) = AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.4]).unwrap();
         let slice = Slice::through(&crate::collision::Checker::new(crate::collision::Scene::lot(), car), &q).unwrap();
         assert!(slice.holds(&q.with(0, 3.0)) && !slice.holds(&q.with(2, 0.5)), "another heading, another slice");
+    }
+    #[test]
+    fn neighbours_overlap_in_real_numbers_and_cover_the_whole_slice() {
+        // sides that no power of two divides, so that places are rounded
+        let (robot, q) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
+        let bounds = crate::geometry::Aabb { min: [-0.1, 0.7].into(), max: [1234.7, 8.3].into() };
+        let scene = crate::collision::Scene::empty(bounds);
+        let rover = Slice::through(&crate::collision::Checker::new(scene, robot), &q).unwrap();
+        for slice in [rover, map(false, 3).slice().clone()] {
+            let map = CellMap::new(slice, MAX_LEVEL);
+            // in units of 2^-60, to within one
+            let exact = |x: f64| {
+                (x * f64::from(1_u32 << 30)) as i128 * (1 << 30)
+                    + ((x * f64::from(1_u32 << 30)).fract() * f64::from(1_u32 << 30)) as i128
+            };
+            for level in [1, 7, MAX_LEVEL] {
+                let ends = |index: u32| {
+                    let cell = Cell { level, column: index, row: index, state: CellState::Unknown };
+                    let (middle, half) = map.place(&cell);
+                    let half = map.slice().grown(half);
+                    [0, 1].map(|i| [exact(middle[i]) - exact(half[i]), exact(middle[i]) + exact(half[i])])
+                };
+                let last = (1 << level) - 1;
+                for i in 0..2 {
+                    for index in 0..last {
+                        assert!(ends(index)[i][1] > ends(index + 1)[i][0], "level {level}, {index}");
+                    }
+                    // a turn is 2.5e-16 more than twice the double nearest to half a turn: 283 units
+                    let beyond = if map.slice().wraps() { 283 } else { 0 };
+                    let [first, end] = [ends(0)[i][0], ends(last)[i][1]];
+                    let [min, max] = [map.slice().min()[i], map.slice().max()[i]].map(exact);
+                    assert!(first + beyond < min && end > max + beyond, "level {level}");
+                }
+            }
+        }
     }
 }

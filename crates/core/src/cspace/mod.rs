@@ -3,7 +3,8 @@
 //!
 //! A [`Slice`] is the plane: for Reach the torus as a square whose edges wrap, for Rusty the workspace with every
 //! obstacle grown by its radius, for Hitch the rear axle's positions at one heading. A [`CellMap`] proves its cells a
-//! few at a time. The same proof finds the [nearest free](nearest_free) configuration.
+//! few at a time. The same proof finds the [nearest free](nearest_free) configuration. A [`Barrier`] is the smallest
+//! set of blocked cells that parts a start from a goal, and so a proof that there is no path.
 //!
 //! ```
 //! use motion_lab_core::collision::{Checker, Scene};
@@ -16,6 +17,7 @@
 //! assert_eq!(map.state([-0.8, 1.5]), CellState::Free); // proven, and so is every configuration of its cell
 //! ```
 
+mod barrier;
 mod cells;
 mod nearest;
 mod picture;
@@ -23,13 +25,15 @@ mod picture;
 pub mod rectangles;
 mod regions;
 mod slice;
+mod vertex_cut;
 mod wrapping;
 
+pub use barrier::{Barrier, BarrierAxis, BarrierCell};
 pub use cells::{Cell, CellMap, MAX_LEVEL, ProofProgress};
 pub use nearest::{NearestFree, nearest_free};
 pub use picture::{Overlay, cspace_picture, lines_through, overlay_items};
 pub use regions::{Region, region_items, regions};
-pub use slice::{CellState, Slice};
+pub use slice::{Blocking, CellProof, CellState, Slice};
 pub use wrapping::wrapped_pieces;
 
 #[cfg(test)]

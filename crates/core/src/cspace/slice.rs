@@ -2,16 +2,50 @@
 
 use std::f64::consts::PI;
 
-use crate::collision::{Checker, Collision};
+use crate::collision::{Checker, Collision, ObstacleId, Overlap};
 use crate::configuration::{AnyConfiguration, Configuration};
 use crate::geometry::Footprint;
-use crate::num::{hypot, lesser, wrap};
+use crate::num::{greater, hypot, lesser, ulp, wrap};
 use crate::picture::in_signs;
 use crate::robots::{AnyRobot, ConfigurationError, Robot};
 
 /// Subtracted from every clearance and depth before it is compared with a bound, metres. It is far above the rounding
 /// of either.
 const ROUNDING: f64 = 1e-11;
+
+/// By how many units in the last place of the slice's greatest coordinate a cell is grown before it is judged. Middles
+/// of cells are rounded by three at most, and pi by less than one.
+const OVERLAP_ULPS: f64 = 16.0;
+
+/// The relative rounding of a motion bound, at most.
+const BOUND_ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// What is proven of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CellProof {
+    /// Every configuration in it is free.
+    Free,
+    /// Every configuration in it is in contact, for this reason.
+    InContact(Blocking),
+    /// Every configuration in it is outside the robot's own limits.
+    OutsideLimits,
+    /// Nothing.
+    None,
+}
+
+/// What proves that every configuration of a cell is in contact: at its middle a part of the robot is deeper in an
+/// obstacle than any of its points moves within the cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blocking {
+    /// The number of the part.
+    pub part: usize,
+    /// The obstacle.
+    pub obstacle: ObstacleId,
+    /// A lower bound on how far the part must move to be free of the obstacle, metres; above `bound`.
+    pub depth: f64,
+    /// An upper bound on how far a point of the part moves from the middle to anywhere in the cell, metres.
+    pub bound: f64,
+}
 
 /// What is known of a cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -138,38 +172,53 @@ impl Slice {
         hypot(x, y)
     }
 
-    /// Judges a cell: all points within `half` of `centre` in each coordinate.
+    /// Judges a cell: all points within `half` of `centre` in each coordinate. [`prove`](Self::prove) says how.
+    pub fn judge(&self, centre: [f64; 2], half: [f64; 2]) -> CellState {
+        match self.prove(centre, half) {
+            CellProof::Free => CellState::Free,
+            CellProof::OutsideLimits | CellProof::InContact(_) => CellState::Blocked,
+            CellProof::None => CellState::Unknown,
+        }
+    }
+
+    /// What is proven of a cell: of all points within [`grown`](Self::grown) of `half` of `centre` in each coordinate.
     ///
     /// At the centre every part has a clearance, or a depth: how far it must move to be free. Within the cell no point
     /// of a part moves farther from there than the robot's motion bound to the cell's corner, the greatest bound in the
     /// cell. A clearance of every part above its bound proves the cell free, a depth of one part above its bound proves
     /// it blocked.
-    pub fn judge(&self, centre: [f64; 2], half: [f64; 2]) -> CellState {
+    pub fn prove(&self, centre: [f64; 2], half: [f64; 2]) -> CellProof {
         let (robot, scene) = (self.checker.robot(), self.checker.scene());
         let q = self.at(centre);
         if !robot.is_within_limits(&q) {
             // only a car has limits; they are about its headings, which a slice holds
-            return CellState::Blocked;
+            return CellProof::OutsideLimits;
         }
         // the rates depend on the difference alone; it is taken from 0, so that it is not wrapped
-        let Ok(rates) = robot.edge_rates(&self.at([0.0; 2]), &self.at([half[0], half[1]])) else {
-            return CellState::Unknown;
+        let Ok(rates) = robot.edge_rates(&self.at([0.0; 2]), &self.at(self.grown(half))) else {
+            return CellProof::None;
         };
         let footprint = robot.footprint(&q);
-        let parts =
-            footprint.parts().iter().zip(&rates).map(|(part, rate)| (Footprint::new([part.clone()]), rate.speed));
         let mut free = true;
-        for (part, bound) in parts {
+        for (number, (part, rate)) in footprint.parts().iter().zip(&rates).enumerate() {
+            let (part, bound) = (Footprint::new([part.clone()]), rate.speed * (1.0 + BOUND_ROUNDING));
             let gap = scene.distance(&part) - ROUNDING;
             if gap > bound {
                 continue;
             }
             free = false;
-            if gap <= 0.0 && scene.depth(&part) - ROUNDING > bound {
-                return CellState::Blocked;
+            let overlap = if gap <= 0.0 { scene.deepest(&part) } else { None };
+            if let Some(Overlap { obstacle, depth, .. }) = overlap.filter(|overlap| overlap.depth - ROUNDING > bound) {
+                return CellProof::InContact(Blocking { part: number, obstacle, depth: depth - ROUNDING, bound });
             }
         }
-        if free { CellState::Free } else { CellState::Unknown }
+        if free { CellProof::Free } else { CellProof::None }
+    }
+
+    /// The half sides of the cell that a proof is about: longer by some roundings of the slice's greatest coordinate.
+    /// The places of cells are rounded, and pi is; grown so, neighbours overlap, over the edge of a torus too.
+    pub fn grown(&self, half: [f64; 2]) -> [f64; 2] {
+        [0, 1].map(|i| half[i] + OVERLAP_ULPS * ulp(greater(self.min[i].abs(), self.max[i].abs())))
     }
 
     /// The point of a cell that is nearest to `p`, and how far that is.

@@ -24,8 +24,21 @@ pub enum NoPath {
         /// The number of the graph's nodes.
         nodes: usize,
     },
+    /// The planner has cut the space into cells, and the finest decide nothing: neither do those proven free join the
+    /// start to the goal, nor do those proven blocked part them. There may be a path, through gaps of about that size.
+    #[error(
+        "undecided: cells of {} by {} {unit} are proven neither free nor blocked",
+        (sides[0] * 1e6).round_ties_even() / 1e6,
+        (sides[1] * 1e6).round_ties_even() / 1e6
+    )]
+    Undecided {
+        /// The sides of the undecided cells.
+        sides: [f64; 2],
+        /// The unit of the sides: `m` or `rad`.
+        unit: &'static str,
+    },
     /// No path leads to the goal, whatever the planner: configurations that are proven to be in contact part it from
-    /// the start, within the scene's bounds.
+    /// the start, within the scene's bounds. A [`Barrier`](crate::cspace::Barrier) is those that do, to be checked.
     #[error(
         "the goal can't be reached: {cells} cells prove that obstacles part it from the start within the world's bounds"
     )]

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use motion_lab_core::collision::Collision;
-use motion_lab_core::geometry::{Point2, Pose2};
+use motion_lab_core::collision::{Collision, Scene};
+use motion_lab_core::geometry::{Aabb, Footprint, Part, Point2, Pose2, Shape};
 use motion_lab_core::num::sin_cos;
 use motion_lab_core::random::{Seed, Stream};
 
@@ -87,4 +87,30 @@ fn the_depth_of_a_disc_is_its_shortest_way_out_of_a_wall() {
 fn random_wall() -> Body {
     use motion_lab_core::geometry::Shape;
     (Pose2::IDENTITY, Shape::try_segment(Point2::new(0.0, -4.0), Point2::new(0.0, 4.0)).unwrap())
+}
+
+#[test]
+fn the_deepest_part_is_named_with_what_it_is_deepest_in() {
+    // squares of 2 m about (0, 0) and (10, 0), and one of 1 m within the second
+    let square = |half: f64| Shape::Rectangle { min: Point2::new(-half, -half), max: Point2::new(half, half) };
+    let bounds = Aabb::new(Point2::new(-20.0, -20.0), Point2::new(20.0, 20.0));
+    let scene = [("near", 0.0, 1.0), ("within", 10.0, 0.5), ("far", 10.0, 1.0)]
+        .into_iter()
+        .fold(Scene::empty(bounds), |scene, (name, x, half)| {
+            scene.with_obstacle_at(name, Pose2::new(x, 0.0, 0.0), square(half))
+        });
+    let disc = |x: f64, radius: f64| Part::new(Pose2::new(x, 0.0, 0.0), Shape::Disc { radius });
+    // radius and way out of the square: 0.1 + 0.6 for the first part, 0.2 + 0.9 for the second, in the larger square
+    let overlap = scene.deepest(&Footprint::new([disc(0.4, 0.1), disc(10.1, 0.2)])).unwrap();
+    assert_eq!((overlap.part, scene.obstacle_name(overlap.obstacle)), (1, Some("far")));
+    assert!((overlap.depth - 1.1).abs() < 1e-9, "{overlap:?}");
+    let overlap = scene.deepest(&Footprint::new([disc(0.0, 0.3), disc(10.1, 0.2)])).unwrap();
+    assert_eq!((overlap.part, scene.obstacle_name(overlap.obstacle)), (0, Some("near")));
+    // of equal ones the first
+    let twins = scene.clone().with_obstacle_at("twin", Pose2::new(0.0, 0.0, 0.0), square(1.0));
+    let overlap = twins.deepest(&Footprint::new([disc(0.0, 0.2), disc(0.0, 0.2)])).unwrap();
+    assert_eq!((overlap.part, twins.obstacle_name(overlap.obstacle)), (0, Some("near")));
+    assert_eq!(scene.deepest(&Footprint::new([disc(5.0, 0.2)])), None);
+    assert_eq!(scene.deepest(&Footprint::new([disc(f64::NAN, 0.2)])), None);
+    assert_eq!(scene.depth(&Footprint::new([disc(f64::NAN, 0.2)])), f64::INFINITY);
 }

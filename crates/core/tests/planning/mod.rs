@@ -1,5 +1,6 @@
 //! Planners: what they return is proven, and an oracle that shares no geometry with the library agrees.
 
+mod barriers;
 mod bounds;
 mod bugs;
 mod ends;

@@ -9,15 +9,22 @@ pub(super) fn next(reason: &NoPath) -> &'static str {
         NoPath::Problem(ProblemError::Clearance { .. }) => "Choose another --from or --to, or a smaller --clearance.",
         NoPath::Problem(_) => "Choose another --from or --to; `motion-lab query witness` says what is in the way.",
         NoPath::Exhausted { .. } => "There may be one: allow more --iterations, or try another --seed or --planner.",
-        NoPath::NoneInGraph { .. } | NoPath::LocalMinimum { .. } | NoPath::Enclosed { .. } | NoPath::GaveUp(_) => {
-            "There may be one: try another --planner."
-        }
+        NoPath::NoneInGraph { .. }
+        | NoPath::Undecided { .. }
+        | NoPath::LocalMinimum { .. }
+        | NoPath::Enclosed { .. }
+        | NoPath::GaveUp(_) => "There may be one: try another --planner.",
         NoPath::Unsuited(_) => "Try another --planner.",
+        NoPath::Unreachable { .. } => "Choose another --to; --barrier FILE writes the proof.",
         _ => "Choose another --to.",
     }
 }
 
-/// Why there is no path, in a sentence that says so.
+/// Why there is no path, or why that is undecided, in a sentence that says so.
 pub(super) fn in_words(reason: &str) -> String {
-    if reason.starts_with("no path") { reason.to_owned() } else { format!("no path: {reason}") }
+    if reason.starts_with("no path") || reason.starts_with("undecided") {
+        reason.to_owned()
+    } else {
+        format!("no path: {reason}")
+    }
 }

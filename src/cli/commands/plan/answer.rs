@@ -9,12 +9,14 @@ use serde::Serialize;
 use super::advice::next;
 use super::exact::ExactAnswer;
 use crate::cli::support::words::counted;
-use crate::cli::{Data, Failure};
+use crate::cli::{Data, Failure, Outcome};
 
 /// What came of planning.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlanAnswer {
     solved: bool,
+    /// `path`; `none` where it is proven that there is no path; `undecided` where none was found.
+    answer: &'static str,
     planner: String,
     robot: String,
     world: String,
@@ -62,6 +64,7 @@ impl PlanAnswer {
     fn new(task: &Task, planner: PlannerName, seed: u64) -> Self {
         PlanAnswer {
             solved: false,
+            answer: "undecided",
             planner: planner.id().to_owned(),
             robot: task.name.clone(),
             world: task.world.name.clone(),
@@ -84,9 +87,15 @@ impl PlanAnswer {
         }
     }
 
-    /// There is no path.
+    /// There is no path, or none was found.
     pub fn of_none(task: &Task, planner: PlannerName, seed: u64, reason: &NoPath) -> Self {
-        PlanAnswer { reason: Some(reason.to_string()), next: next(reason), ..Self::new(task, planner, seed) }
+        let answer = if matches!(reason, NoPath::Unreachable { .. }) { "none" } else { "undecided" };
+        PlanAnswer { answer, reason: Some(reason.to_string()), next: next(reason), ..Self::new(task, planner, seed) }
+    }
+
+    /// How the command ends that gives this answer for want of a path.
+    pub fn without_path(&self) -> Outcome {
+        if self.answer == "none" { Outcome::Unreachable } else { Outcome::NoPath }
     }
 
     /// The same answer with what the planner has done.
@@ -99,6 +108,7 @@ impl PlanAnswer {
         let PathLengths { length, clearance } = attempt.lengths();
         PlanAnswer {
             solved: true,
+            answer: "path",
             effort: Some(attempt.effort().into()),
             seconds: Some(seconds),
             // a leg of a path that stays where it is leads nowhere

@@ -4,6 +4,7 @@
 mod advice;
 mod answer;
 mod args;
+mod barrier_file;
 mod cases;
 mod compare;
 pub mod drawing;
@@ -17,9 +18,11 @@ pub mod task;
 use std::time::Instant;
 
 use motion_lab::capture::{CaptureForm, PlanOutcome};
+use motion_lab::planning::NoPath;
 use motion_lab::plans::{MAX_CLEARANCE, PathFile, PlanAttempt, PlannerName, Task};
 use motion_lab::random::Seed;
 
+use crate::cli::support::console::note;
 use crate::cli::support::output::write_file;
 use crate::cli::support::paper::write_picture;
 use crate::cli::support::progress::CommandProgress;
@@ -28,6 +31,7 @@ use crate::cli::{Data, Failure, Outcome, say};
 use advice::in_words;
 use answer::PlanAnswer;
 pub use args::PlanArgs;
+use barrier_file::BarrierFile;
 use cases::Cases;
 pub use rounds::solve;
 use targets::PlanTargets;
@@ -49,6 +53,10 @@ impl PlanArgs {
         }
         let Cases { task, all } = Cases::of(&self)?;
         let task = Task { checker: self.checker, clearance: self.clearance, ..task };
+        if !task.checker.proves() && self.barrier.is_some() {
+            let reason = format!("a barrier is a proof, and {} proves nothing", task.checker.id());
+            return Err(Failure::usage(reason, "Leave out --checker, or --barrier."));
+        }
         if !task.checker.proves() && (self.script.is_some() || self.record.is_some()) {
             let reason = format!("a script plays a path that is proven, and {} proves nothing", task.checker.id());
             return Err(Failure::usage(reason, "Leave out --checker, or --script and --record."));
@@ -56,8 +64,8 @@ impl PlanArgs {
         if !self.compare.is_empty() {
             return compare::compare(&self, task, &all, data);
         }
+        let name = self.planner_for(&task)?;
         let targets = PlanTargets::of(&self)?;
-        let name = self.planner.unwrap_or(PlannerName::default_for(&task.robot));
         let begun = Instant::now();
         let mut attempt = match task::attempt(&task, name, Seed(self.seed))? {
             Ok(attempt) => attempt,
@@ -73,10 +81,32 @@ impl PlanArgs {
         match solved {
             Ok(()) => self.solved(&task, name, attempt.as_ref(), seconds, targets, data),
             Err(reason) => {
-                let answer = PlanAnswer::of_none(&task, name, self.seed, &reason);
+                let mut answer = PlanAnswer::of_none(&task, name, self.seed, &reason);
                 self.draw(&task, name, attempt.as_ref(), (targets.picture, targets.film), data)?;
+                match (targets.barrier, &reason) {
+                    (Some(target), NoPath::Unreachable { .. }) => {
+                        let barrier = BarrierFile::of(&task, attempt.as_ref());
+                        let missing = || Failure::internal(anyhow::anyhow!("the cells that prove it hold no barrier"));
+                        barrier.ok_or_else(missing)?.write(target, data)?;
+                        answer.next = "Choose another --to.";
+                    }
+                    (barrier, _) => unwritten(barrier.as_ref(), "nothing is proven"),
+                }
                 self.none(&answer.after(attempt.effort()), data)
             }
+        }
+    }
+
+    /// The planner that is named, or the one that what is asked for needs.
+    fn planner_for(&self, task: &Task) -> Result<PlannerName, Failure> {
+        let by_cells = PlannerName::CellDecomposition;
+        match self.planner {
+            Some(name) if self.barrier.is_some() && name != by_cells => {
+                let reason = format!("--barrier: {} proves no barrier, only {} does", name.id(), by_cells.id());
+                Err(Failure::usage(reason, format!("Use --planner {}, or leave out --barrier.", by_cells.id())))
+            }
+            None if self.barrier.is_some() => Ok(by_cells),
+            name => Ok(name.unwrap_or(PlannerName::default_for(&task.robot))),
         }
     }
 
@@ -87,7 +117,7 @@ impl PlanArgs {
         } else if let Some(reason) = &answer.reason {
             say(format!("{}\n{}", in_words(reason), answer.next));
         }
-        Ok(Outcome::NoPath)
+        Ok(answer.without_path())
     }
 
     fn solved(
@@ -99,7 +129,7 @@ impl PlanArgs {
         targets: PlanTargets,
         data: &mut Data,
     ) -> Result<Outcome, Failure> {
-        let PlanTargets { path, script, record, picture, film } = targets;
+        let PlanTargets { path, script, record, picture, film, barrier } = targets;
         let mut answer = PlanAnswer::of_path(task, name, self.seed, attempt, seconds);
         // what can't be played is refused before anything is written
         let played = if script.is_some() || record.is_some() {
@@ -131,6 +161,7 @@ impl PlanArgs {
             target.finish(data)?;
         }
         self.draw(task, name, attempt, (picture, film), data)?;
+        unwritten(barrier.as_ref(), "there is a path");
         if let Some(played) = &played {
             played.write(script, record, &mut answer, data)?;
             if self.json {
@@ -167,5 +198,12 @@ impl PlanArgs {
     fn form(&self) -> CaptureForm {
         let of_name = || self.svg.as_deref().and_then(CaptureForm::of).filter(|form| *form == CaptureForm::Png);
         self.format.or_else(of_name).unwrap_or(CaptureForm::Svg)
+    }
+}
+
+/// Says that no barrier was written, and why.
+fn unwritten(barrier: Option<&Target>, why: &str) {
+    if let Some(target) = barrier {
+        note(format!("{}: no barrier was written, since {why}", target.path().display()));
     }
 }

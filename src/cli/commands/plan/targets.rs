@@ -16,6 +16,8 @@ pub struct PlanTargets {
     pub picture: Option<Target>,
     /// A film of the planner's growth.
     pub film: Option<Target>,
+    /// The proof that there is no path, as JSON.
+    pub barrier: Option<Target>,
 }
 
 impl PlanTargets {
@@ -27,6 +29,7 @@ impl PlanTargets {
             record: args.record.as_deref().map(Target::log).transpose()?,
             picture: args.svg.as_deref().map(Target::of).transpose()?,
             film: args.gif.as_deref().map(Target::of).transpose()?,
+            barrier: args.barrier.as_deref().map(Target::of).transpose()?,
         })
     }
 }

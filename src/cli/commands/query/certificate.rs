@@ -1,13 +1,14 @@
 //! `EdgeCertificate`, the proof of an edge as JSON.
 
-use motion_lab::collision::{Certificate, Checker, Scene};
+use motion_lab::collision::{Certificate, Checker};
 use motion_lab::configuration::{AnyConfiguration, Configuration};
 use motion_lab::export::JsonNumber;
 use motion_lab::robots::{AnyRobot, ConfigurationError, Motion, Robot};
 use serde::Serialize;
 
-use super::answer::{EdgeAnswer, edge, name, point};
+use super::answer::{EdgeAnswer, edge};
 use super::dimensions::Dimensions;
+use super::shapes::ObstacleShapes;
 use crate::cli::support::output::write_file;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure};
@@ -24,7 +25,7 @@ const VERSION: u32 = 1;
 pub struct EdgeCertificate {
     version: u32,
     program: &'static str,
-    world: Shapes,
+    world: ObstacleShapes,
     robot: Dimensions,
     motion: ChartLine,
     margin: JsonNumber,
@@ -33,23 +34,6 @@ pub struct EdgeCertificate {
     proven_until: JsonNumber,
     /// `[from, to, clearance]`
     steps: Vec<[JsonNumber; 3]>,
-}
-
-/// The shapes of a world's obstacles.
-#[derive(Debug, Serialize)]
-struct Shapes {
-    name: String,
-    obstacles: Vec<Shape>,
-}
-
-/// A placed shape: all points within the radius of the convex hull of the core's points, in world coordinates. A disc
-/// has one core point, a segment or a capsule two.
-#[derive(Debug, Serialize)]
-struct Shape {
-    /// The name of its obstacle, which may have other pieces.
-    name: String,
-    core: Vec<[JsonNumber; 2]>,
-    radius: JsonNumber,
 }
 
 /// The motion along the straight line of the configuration chart, its parameter s from 0 to 1.
@@ -94,7 +78,7 @@ impl EdgeCertificate {
         Ok(EdgeCertificate {
             version: VERSION,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")),
-            world: Shapes { name: world.to_owned(), obstacles: shapes(scene) },
+            world: ObstacleShapes::all(world, scene),
             robot: Dimensions::of(robot),
             motion: ChartLine { kind: "chart line", from: numbers(&line.at(0.0)), to: numbers(&line.at(1.0)) },
             margin: JsonNumber(proof.margin()),
@@ -103,17 +87,6 @@ impl EdgeCertificate {
             steps: proof.steps().iter().map(|step| [step.from, step.to, step.clearance].map(JsonNumber)).collect(),
         })
     }
-}
-
-fn shapes(scene: &Scene) -> Vec<Shape> {
-    scene
-        .pieces()
-        .map(|(id, piece)| Shape {
-            name: name(scene, id).unwrap_or_default(),
-            core: piece.core().iter().copied().map(point).collect(),
-            radius: JsonNumber(piece.radius()),
-        })
-        .collect()
 }
 
 fn numbers(q: &impl Configuration) -> Vec<JsonNumber> {

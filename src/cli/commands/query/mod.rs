@@ -7,6 +7,7 @@ mod dimensions;
 mod line;
 mod lines;
 mod question;
+mod shapes;
 
 pub use question::Question;
 use std::fs::Metadata;
@@ -24,8 +25,10 @@ pub use answer::{EdgeAnswer, edge};
 use answer::{QueryAnswer, ask, ask_scan};
 use certificate::EdgeCertificate;
 pub use chosen::Chosen;
+pub use dimensions::Dimensions;
 use line::{QuerySubject, parse_line};
 use lines::Lines;
+pub use shapes::ObstacleShapes;
 
 use crate::cli::support::choices::{self, KINDS, NumberList, RobotsAndKinds, WorldNames};
 use crate::cli::support::gate::read_stdin;

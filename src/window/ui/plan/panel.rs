@@ -13,6 +13,7 @@ use crate::window::ui::{Command, FrameColours, SessionCommand, UiState};
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg};
 use motion_lab_core::picture::{Role, in_signs};
+use motion_lab_core::planning::NoPath;
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World;
@@ -204,6 +205,9 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
             if plan.improves() {
                 ui.label("Play on, and it improves its path.");
             }
+        }
+        PlanStage::Ended(undecided @ NoPath::Undecided { .. }) => {
+            refusal(ui, &undecided.to_string().replacen("undecided", "Undecided", 1), look);
         }
         PlanStage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
         PlanStage::Read(name, judged) => {

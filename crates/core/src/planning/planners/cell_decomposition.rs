@@ -15,9 +15,10 @@ const CELLS: u32 = 256;
 /// Approximate cell decomposition (Brooks and Lozano-Perez, 1985): the cells of the configuration space are cut until
 /// cells proven free join the start to the goal, or cells proven blocked part them.
 ///
-/// The first gives a path through the middles of cells, the second a proof: [`NoPath::Unreachable`]. It is for spaces
-/// of two dimensions: a disc's positions within the scene's bounds, and an arm of two links. Any other robot ends it
-/// with [`NoPath::Unsuited`]. Where the finest cells decide neither it ends with [`NoPath::NoneInGraph`].
+/// The first gives a path through the middles of cells, the second a proof: [`NoPath::Unreachable`], whose
+/// [`Barrier`](crate::cspace::Barrier) anybody can check. It is for spaces of two dimensions: a disc's positions within
+/// the scene's bounds, and an arm of two links. Any other robot ends it with [`NoPath::Unsuited`]. Where the finest
+/// cells decide neither it ends with [`NoPath::Undecided`].
 ///
 /// An iteration judges 256 cells.
 #[derive(Clone, Debug)]
@@ -42,8 +43,9 @@ impl CellDecomposition {
         let map = self.map.as_mut()?;
         let is_done = !map.refine(CELLS);
         let raster = CellStates::of(map);
-        let [start, goal] =
-            [self.search.problem.start(), self.search.problem.goal()].map(|q| raster.cell(map.slice().point(&q)));
+        // either end is free, so all cells at whose side it lies are open, and any of them will do
+        let place = |q: AnyConfiguration| raster.cell(map.slice().point(&q.in_chart()));
+        let [start, goal] = [self.search.problem.start(), self.search.problem.goal()].map(place);
         if let Some(cells) = raster.way(start, goal, |state| state == CellState::Free) {
             // within one cell the straight way is free
             let cells = if cells.len() > 1 { &cells[..] } else { &[] };
@@ -52,17 +54,15 @@ impl CellDecomposition {
             let goal = self.search.problem.goal().in_chart();
             let end = middles.into_iter().chain([goal]).try_fold(0, |node, q| self.search.reach(node, q));
             let is_solved = end.is_some_and(|end| self.search.take_branch(end));
-            return (!is_solved).then(|| self.undecided());
+            let nodes = self.search.growth.nodes().len();
+            return (!is_solved).then_some(NoPath::NoneInGraph { nodes });
         }
         if raster.way(start, goal, |state| state != CellState::Blocked).is_none() {
             // both ends lie within the cells, and so does every path between them
             return Some(NoPath::Unreachable { cells: map.progress().judged });
         }
-        is_done.then(|| self.undecided())
-    }
-
-    fn undecided(&self) -> NoPath {
-        NoPath::NoneInGraph { nodes: self.map.as_ref().map_or(0, |map| map.leaves().count()) }
+        let unit = if map.slice().wraps() { "rad" } else { "m" };
+        is_done.then_some(NoPath::Undecided { sides: raster.steps, unit })
     }
 }
 
