@@ -13,7 +13,7 @@ use std::fmt::Write;
 use percent_encoding::utf8_percent_encode;
 
 use super::inputs;
-#[cfg(any(test, feature = "web"))]
+#[cfg(feature = "web")]
 pub use cited::{cited, requoted};
 pub use error::LinkError;
 use limits::{ESCAPED, LONG, MAX_QUERY};

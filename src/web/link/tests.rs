@@ -2,6 +2,7 @@
 
 use percent_encoding::utf8_percent_encode;
 
+use super::cited::requoted;
 use super::limits::{ESCAPED, MAX_NAME};
 use super::*;
 use motion_lab_sim::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
