@@ -107,7 +107,7 @@ function tellAnswer() {
   clearTimeout(answers);
   answers = setTimeout(() => {
     const { query } = state;
-    if (query) announce(query.intersects ? "It touches" : `It is free, ${query.distance.toFixed(4)} m away`);
+    if (query) announce(query.intersects ? "It touches" : query.distance === null ? "It is free: nothing is there" : `It is free, ${query.distance.toFixed(4)} m away`);
   }, 400);
 }
 
@@ -211,7 +211,7 @@ const hear = {
     }
     if (message.notice?.text !== before?.notice?.text) {
       noticed = performance.now();
-      warn(""); // what the page said of something before
+      if (message.notice) warn(""); // what the page said of something before
       alarm(message.notice?.error ? message.notice.text : "");
       announce(message.notice?.error ? "" : (message.notice?.text ?? ""));
     }

@@ -32,7 +32,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
   rail.hidden = true;
   container.append(rail);
   let opener = null; // the twin of a menu's or a list's button that was pressed last
-  let others = null; // the layers that there were before it was
+  let others = null; // the layers that there were before it was, and until when another one is its
   let opened = null; // the layer of its menu or list, while it is open
   let isEntered = false; // whether the focus has gone into the list
   const above = document.createElement("div"); // what is in there, behind the button
@@ -84,13 +84,13 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     if (PRESSED.includes(widget.kind)) {
       control.addEventListener("click", () => {
         const { kind, open, layer } = own.widget;
-        if (layer === undefined && (kind === "combo" || open !== undefined)) {
+        if (layer === undefined && (kind === "combo" || open === false)) {
           opener = own;
-          others = new Set(told.map((widget) => widget.layer));
+          others = { layers: new Set(told.map((widget) => widget.layer)), until: performance.now() + 1000 };
         }
         act("click");
         // egui closes a list for a pointer that chooses, and not for a reader who does
-        if (control.role === "option") setTimeout(() => control.isConnected && ["keydown", "keyup"].forEach(escape), 200);
+        if (control.role === "option") setTimeout(() => opened === layer && ["keydown", "keyup"].forEach(escape), 200);
       });
     }
     if (widget.kind === "check") control.addEventListener("change", () => act("click"));
@@ -240,8 +240,8 @@ export function twins({ container, send, titles, said, leave, nudge }) {
 
   /** How many of the widgets are on the rail: it comes first, and is toggles. */
   function railed(widgets) {
-    const others = widgets.findIndex(({ kind, on }) => kind !== "button" || on === undefined);
-    return others > 2 ? others : 0;
+    const count = widgets.findIndex(({ kind, on }) => kind !== "button" || on === undefined);
+    return count > 2 ? count : 0;
   }
 
   /** Whether what is open is a list to choose from. */
@@ -277,7 +277,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
 
   above.addEventListener("keydown", (event) => {
     const by = { ArrowDown: 1, ArrowUp: -1, Home: -Infinity, End: Infinity }[event.key];
-    if (by === undefined || ["range", "number", "text"].includes(event.target.type)) return;
+    if (by === undefined || event.ctrlKey || event.metaKey || event.altKey || event.shiftKey || ["range", "number", "text"].includes(event.target.type)) return;
     const items = [...above.querySelectorAll("button, input")].filter((item) => !item.disabled);
     const at = items.indexOf(event.target) + by;
     event.preventDefault();
@@ -290,8 +290,9 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     told = tree;
     const widgets = once(tree);
     const layers = widgets.map((widget) => widget.layer).filter((layer) => layer !== undefined);
-    if (!layers.includes(opened)) opened = (others && layers.find((layer) => !others.has(layer))) ?? null;
-    if (opened) others = null;
+    if (!layers.includes(opened)) opened = (others && layers.find((layer) => !others.layers.has(layer))) ?? null;
+    // what comes later is a notice, or a dialog
+    if (opened || performance.now() > others?.until) others = null;
     const isInside = (widget) => opened !== null && widget.layer === opened;
     const ordered = [...inOrder(widgets.filter((widget) => !isInside(widget))), ...widgets.filter(isInside)];
     const onRail = new Set(widgets.slice(0, railed(widgets)));
@@ -307,6 +308,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
       // moving an element would take its focus away
       if (own.element !== next.get(parent) && !own.element.contains(document.activeElement)) parent.insertBefore(own.element, next.get(parent));
       if (own.element.parentNode === parent) next.set(parent, own.element.nextSibling);
+      if (parent !== above && own.control.role === "option") ["role", "aria-selected"].forEach((name) => own.control.removeAttribute(name));
       update(own, ordered[i]);
     }
     open(all.filter((own) => isInside(own.widget)));

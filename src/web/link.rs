@@ -7,6 +7,7 @@ mod names;
 mod read;
 #[cfg(test)]
 mod tests;
+mod work;
 
 use std::fmt::Write;
 
@@ -80,8 +81,8 @@ impl Link {
     /// The link that shows a run at its configuration's last tick.
     ///
     /// # Errors
-    /// [`LinkError::Number`] when the tick lies beyond [`MAX_LINK_TICK`]; [`LinkError::Name`] for a world of one's own
-    /// with a long name in it.
+    /// [`LinkError::Number`] when the tick lies beyond [`MAX_LINK_TICK`]; [`LinkError::Name`] for a long name in a world
+    /// of one's own or of an added obstacle; [`LinkError::Work`] for a run that is more work than a reader waits for.
     pub fn of(recipe: &Recipe) -> Result<Self, LinkError> {
         let Recipe { seed, config, script } = recipe;
         let usual = TourConfig::default();
@@ -89,9 +90,16 @@ impl Link {
             return Err(LinkError::Number { field: "tick", text: config.ticks.to_string(), most: MAX_LINK_TICK });
         }
         let worlds = if config.worlds == usual.worlds { vec![] } else { config.worlds.clone() };
-        worlds.iter().filter(|world| built_in_name(world).is_none()).try_for_each(names::check)?;
         let (sensor, script) = (config.sensor, script.clone());
-        Ok(Link { seed: *seed, worlds, sensor, tick: config.ticks, script, ..Link::default() })
+        let link = Link { seed: *seed, worlds, sensor, tick: config.ticks, script, ..Link::default() };
+        link.check().map(|()| link)
+    }
+
+    /// Refuses what no reader is to meet by a click: names that are sentences, and endless work.
+    fn check(&self) -> Result<(), LinkError> {
+        self.worlds.iter().filter(|world| built_in_name(world).is_none()).try_for_each(names::check)?;
+        names::check_added(&self.script)?;
+        work::check(&self.recipe())
     }
 
     /// The query, without its question mark. Parsing it gives the link back. Where it would be long, its inputs are in

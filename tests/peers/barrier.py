@@ -187,6 +187,8 @@ def check(barrier):
     ranges = [(-PI, PI, True)] * len(robot["lengths"]) if is_arm else [(a, b, False) for a, b in zip(low, high)]
     lists = [barrier["axes"], barrier["start"], barrier["goal"]] + [cell[key] for cell in cells for key in ("middle", "half")]
     require(all(len(numbers) == len(ranges) for numbers in lists), "another number of coordinates than the robot has")
+    names = [axis["name"] for axis in barrier["axes"]]
+    require(names == (["th1", "th2"] if is_arm else ["x", "y"]), "the axes are not the robot's, in their order")
     require(all(axis["wraps"] is is_arm for axis in barrier["axes"]), "angles wrap, and lengths do not")
     positive = [half for cell in cells for half in cell["half"]] + [high - low for low, high, _ in ranges] + robot.get("lengths", [])
     require(all(x > 0 for x in positive), "a side, a link or the world has no length")

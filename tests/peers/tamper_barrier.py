@@ -106,6 +106,7 @@ ALWAYS = {
     "a coordinate too many": lambda b: b["goal"].append(0.0),
     "a start that is a text": lambda b: b.update(start="here"),
     "axes that wrap the other way": lambda b: [axis.update(wraps=not axis["wraps"]) for axis in b["axes"]],
+    "the axes the other way round": lambda b: b["axes"].reverse(),
     "one axis": lambda b: b["axes"].pop(),
     "a thinner robot": lambda b: b["robot"].update(radius=b["robot"]["radius"] * 0.5),
     "a robot of negative radius": lambda b: b["robot"].update(radius=-b["robot"]["radius"]),

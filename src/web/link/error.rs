@@ -1,7 +1,7 @@
 //! `LinkError`, why an address is refused.
 
 use super::cited::{cited, requoted};
-use super::limits::{LINK_VERSION_WITH_FILES, MAX_COORDINATES, MAX_LINK, MAX_NAME};
+use super::limits::{LINK_VERSION_WITH_FILES, MAX_COORDINATES, MAX_LINK, MAX_LINK_WORK, MAX_NAME};
 use motion_lab_core::worlds::WorldError;
 use motion_lab_sim::run::ScriptError;
 
@@ -53,9 +53,18 @@ pub enum LinkError {
     /// A world file that is refused.
     #[error("file: {}", requoted(.0))]
     World(#[from] WorldError),
-    /// A name of a world of a link that is long enough for a sentence of the link's maker.
-    #[error("file: the name {} has more than {MAX_NAME} characters: save the run as a file instead", cited(.0))]
+    /// A name in a link that is long enough for a sentence of the link's maker, or has marks that turn text about.
+    #[error("the name {} has more than {MAX_NAME} characters, or marks of direction: it is one for a file", cited(.0))]
     Name(String),
+    /// More work than whoever opens a link waits for.
+    #[error(
+        "the run is too much work for a link, {work} rays and pairs of robots and shapes, the limit is \
+         {MAX_LINK_WORK}: it is one for a file"
+    )]
+    Work {
+        /// The work.
+        work: u64,
+    },
     /// Not a range sensor.
     #[error("sensor: it must be none, or a number of rays and a range in metres, as 360,4, not {}", cited(.0))]
     Sensor(String),

@@ -30,6 +30,13 @@ pub const MAX_COORDINATES: usize = 16;
 /// Largest tick of a link: an hour. Opening a link simulates its run up to that tick.
 pub const MAX_LINK_TICK: u64 = 72_000;
 
+/// Least number of ticks that a link's run is taken for: a minute, since it is played.
+pub const TICKS_AHEAD: u64 = 1200;
+
+/// The most work that the run of a link may be: rays, and pairs of a robot and what it may meet, over all its ticks. The
+/// tour's hour, the longest link of it, is a tenth.
+pub const MAX_LINK_WORK: u64 = 400_000_000;
+
 /// Characters to escape: those with a meaning in a query, and those at which programs that find addresses in text stop.
 pub const ESCAPED: &AsciiSet = &{
     let marks = CONTROLS.add(b' ').add(b'"').add(b'#').add(b'%').add(b'&').add(b'+').add(b'<').add(b'>');

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use percent_encoding::percent_decode_str;
 
+use super::Link;
 use super::error::LinkError;
 use super::limits::{
     LINK_VERSION, LINK_VERSION_WITH_FILES, LINK_VERSION_WITH_INPUTS, MAX_COORDINATES, MAX_LINK, MAX_LINK_TICK,
 };
-use super::{Link, names};
 use crate::web::inputs;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
@@ -132,7 +132,7 @@ impl LinkFields {
             }
             link.digest = Some(text.to_ascii_lowercase());
         }
-        Ok(link)
+        link.check().map(|()| link)
     }
 
     /// The worlds, by name or as files; none of either stands for those that are built in.
@@ -151,7 +151,6 @@ impl LinkFields {
         }
         for text in &self.files {
             let world = World::parse_recorded("line", text)?;
-            names::check(&world)?;
             worlds.push(world);
         }
         Ok(worlds)

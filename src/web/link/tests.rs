@@ -5,6 +5,7 @@ use percent_encoding::utf8_percent_encode;
 use super::cited::requoted;
 use super::limits::{ESCAPED, MAX_NAME};
 use super::*;
+use motion_lab_core::worlds::Resident;
 use motion_lab_sim::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
 
 fn driven() -> Script {
@@ -103,10 +104,56 @@ fn a_name_in_a_link_is_too_short_for_a_sentence() {
     })
     .unwrap();
     assert_eq!(Link::parse(&longest.query().unwrap()).unwrap(), longest);
-    let said = "file: the name \"xxxxxxxxxxxx...\" has more than 32 characters: save the run as a file instead";
+    let said = "the name \"xxxxxxxxxxxx...\" has more than 32 characters, or marks of direction: it is one for a file";
     assert_eq!(Link::of(&of(named(MAX_NAME + 1))).unwrap_err().to_string(), said);
     let forged = utf8_percent_encode(&named(MAX_NAME + 1).to_ron(), ESCAPED).to_string();
     assert_eq!(Link::parse(&format!("v=3&file={forged}")).unwrap_err().to_string(), said);
+}
+
+#[test]
+fn an_added_obstacle_and_marks_of_direction_are_names_too() {
+    let change = |name: &str| {
+        let points = vec![(Quantized(3 << 20), Quantized(4 << 20))];
+        let change = WorldChange::Add { name: name.into(), points, radius: Quantized(104_858) };
+        Script::new(vec![], vec![WorldEvent { tick: 1, world: "Lot".into(), change }])
+    };
+    let of = |name: &str| {
+        let config = TourConfig { worlds: built_in(&["lot"]), ticks: 1, ..TourConfig::default() };
+        Link::of(&Recipe::new(config, (Seed(1), change(name))))
+    };
+    assert!(of("a post").is_ok());
+    for scam in ["Your session has expired, sign in at evil.example", "a \u{202e}post", "a\u{200b}post"] {
+        assert!(matches!(of(scam), Err(LinkError::Name(_))), "{scam}");
+        let query = format!("v=1&world=lot&script={}", utf8_percent_encode(&change(scam).to_line(), ESCAPED));
+        assert!(matches!(Link::parse(&query), Err(LinkError::Name(_))), "{scam}");
+    }
+}
+
+/// Whoever opens a link waits until its run has come to its tick.
+#[test]
+fn a_link_is_no_endless_work() {
+    let said = |query: &str| Link::parse(query).unwrap_err().to_string();
+    assert!(
+        said("v=3&sensor=100000,10000&tick=72000").contains("too much work for a link, 72"),
+        "an hour of 10^5 rays"
+    );
+    let mut lot = World::built_in("lot").unwrap();
+    let rover = World::built_in("apartment").unwrap().robots[0].clone();
+    lot.robots = (0..400).map(|i| Resident { name: format!("r{i}"), ..rover.clone() }).collect();
+    let config = |worlds, ticks, n_rays| {
+        let sensor = Some(RangeSensor { n_rays, max_range: 4.0 });
+        Recipe::new(TourConfig { worlds, ticks, sensor }, Seed(1))
+    };
+    // at tick 0 it is played, which would be two seconds a tick
+    assert!(matches!(Link::of(&config(vec![lot.clone()], 1, 99_000)), Err(LinkError::Work { .. })));
+    // by hand: each of the 400 has 1,000 rays, the 400 robots and the Lot's six obstacles, in each of a minute's ticks
+    let refused = Link::of(&config(vec![lot.clone()], 1, 1000)).err();
+    assert_eq!(refused, Some(LinkError::Work { work: 400 * (1000 + 400 + 6) * 1200 }));
+    assert!(Link::of(&config(vec![lot], 1, 100)).is_ok(), "a crowd that a browser can play");
+    // the longest link of the tour is a tenth of what may be
+    let usual = TourConfig::default();
+    let hour = Recipe::new(TourConfig { ticks: MAX_LINK_TICK, ..usual }, Seed(1));
+    assert!(Link::of(&hour).is_ok());
 }
 
 #[test]

@@ -169,7 +169,8 @@ fn every_file_of_a_folder_is_a_row_or_left_out_by_name() {
         ("in/UP.RON", NOTHING),
         ("in/kim.txt", NOTHING),
         ("in/x.mcap.partial", ""),
-        ("in/page.html", "<html>"),
+        ("in/page.html", "<html><p>what Moodle adds</p>"),
+        ("in/saved.html", "<!doctype html><title>A run of the motion lab</title>"),
         ("in/._ann.ron", "\u{0}"),
         ("in/none", ""),
         ("in/LOG.Mcap", "not a log"),
@@ -177,7 +178,7 @@ fn every_file_of_a_folder_is_a_row_or_left_out_by_name() {
     let graded = run_in(folder.path(), &["grade", "--json", "exam.ron", "in"]);
     let rows: Vec<serde_json::Value> = graded.out.lines().map(json).collect();
     let names: Vec<String> = rows.iter().map(|row| row["submission"].as_str().unwrap().replace('\\', "/")).collect();
-    assert_eq!(names, ["in/LOG.Mcap", "in/UP.RON", "in/page.html"], "{}", graded.err);
+    assert_eq!(names, ["in/LOG.Mcap", "in/UP.RON", "in/saved.html"], "{}", graded.err);
     let points = [serde_json::Value::Null, 0.0.into(), serde_json::Value::Null];
     assert_eq!([0, 1, 2].map(|row: usize| rows[row]["points"].clone()), points, "what can't be read has none");
     assert!(rows[0]["refused"].is_string() && rows[1]["refused"].is_null(), "{rows:?}");
@@ -186,10 +187,11 @@ fn every_file_of_a_folder_is_a_row_or_left_out_by_name() {
         ("kim.txt", "its name ends in none of .ron, .mcap, .html and .csv"),
         ("none", "its name ends in none of"),
         ("x.mcap.partial", "it is the beginning of a log"),
+        ("page.html", "it is a page that the lab did not save"),
         ("._ann.ron", "it is hidden"),
     ] {
         let said = format!("{file}: left out: {reason}");
         assert!(graded.err.contains(&said), "{said}: {}", graded.err);
     }
-    assert_eq!(graded.err.matches("left out").count(), 4, "{}", graded.err);
+    assert_eq!(graded.err.matches("left out").count(), 5, "{}", graded.err);
 }

@@ -231,7 +231,7 @@ fn folders_and_patterns_stand_for_submissions_and_a_missing_file_is_one_row() {
     assert_eq!(rows.iter().map(|row| &row["passed"]).collect::<Vec<_>>(), [false, true, false, false]);
     let reason = |row: usize| rows[row]["refused"].as_str().unwrap();
     assert_eq!([reason(0), reason(3)], ["there is no such file"; 2]);
-    assert_eq!(reason(2), "no script, log or table is in this folder");
+    assert_eq!(reason(2), "no script, log, page or table is in this folder");
     assert_eq!((&rows[0]["points"], &rows[0]["max_points"]), (&serde_json::Value::Null, &1.0.into()));
 }
 

@@ -233,7 +233,7 @@ lab("hostile links are refused by name, and the lab starts all the same", "/?see
     ["?script=Script(version:1,events:[(tick:1,robot:%22Rusty%22,input:Drive(999,0))])", /channel 999/],
     ["?script=Script(version:1,events:[(tick:1,robot:%22Nobody%22,input:Release)])&tick=2", /Nobody/],
     ["?script=Script(version:1,events:[(tick:1,robot:%22Your%20session%20has%20expired%22,input:Release)])&tick=2", /^the link: (?!.*expired).*Your session/],
-    ["?v=9", /v: this lab reads links of version 1 and 2, not "9"/],
+    ["?v=9", /v: this lab reads links of versions 1 to 3, not "9"/],
   ]) {
     const page = await Lab.open(`/${query}`);
     assert.match((await page.until((s) => s.notice && s.notice.error)).notice.text, said);
@@ -594,7 +594,7 @@ lab("frames below the fold take neither the focus nor the page's place; saving f
 
 lab("a refused link names its field and says nothing in the link's words; a link's paper is not kept", "/?v=Your%20session%20has%20expired&theme=dark", async (lab) => {
   const { notice } = await lab.until((s) => s.notice);
-  assert.equal(notice.text, 'the link: v: this lab reads links of version 1 and 2, not "Your session..."');
+  assert.equal(notice.text, 'the link: v: this lab reads links of versions 1 to 3, not "Your session..."');
   const kept = () => lab.page.evaluate(() => JSON.parse(localStorage.getItem("motion-lab/settings") ?? "{}").theme);
   await lab.page.goto(`${origin()}/?theme=dark`);
   await lab.until((s) => s.theme === "dark");

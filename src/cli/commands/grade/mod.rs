@@ -207,7 +207,7 @@ enum SubmissionFile {
 /// What a file holds. Only one that can't be read at all is a failure.
 fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<SubmissionFile, Failure> {
     if path.is_dir() {
-        return Ok(SubmissionFile::None("no script, log or table is in this folder".into()));
+        return Ok(SubmissionFile::None("no script, log, page or table is in this folder".into()));
     }
     if ["mcap", "html", "htm"].contains(&&*ending(path)) {
         return Ok(read_run(&read_bytes(path, MAX_LOG)?, expected));

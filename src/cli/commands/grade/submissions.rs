@@ -1,6 +1,7 @@
 //! The submissions named on the command line: files, folders, and patterns that a shell did not resolve.
 
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
@@ -14,6 +15,10 @@ const MAX_SUBMISSIONS: usize = 100_000;
 
 /// The endings of what can be handed in, in any case of letters.
 const ENDINGS: [&str; 5] = ["ron", "mcap", "csv", "html", "htm"];
+
+/// The title of every page that the lab saves, and how far into a page it is looked for, bytes.
+const SAVED_TITLE: &str = "<title>A run of the motion lab</title>";
+const HEAD: u64 = 4096;
 
 /// What the command line names.
 #[derive(Default)]
@@ -66,10 +71,18 @@ fn reason_left_out(file: &Path) -> Option<&'static str> {
         return Some("it is hidden");
     }
     match ending(file).as_str() {
+        "html" | "htm" if !is_saved_page(file) => Some("it is a page that the lab did not save"),
         known if ENDINGS.contains(&known) => None,
         "partial" => Some("it is the beginning of a log, which was not finished"),
         _ => Some("its name ends in none of .ron, .mcap, .html and .csv"),
     }
+}
+
+/// Whether a page says in its head that the lab saved it. One that does is read as a run, whatever is in it.
+fn is_saved_page(file: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = fs::File::open(file).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.is_ok() && String::from_utf8_lossy(&head).contains(SAVED_TITLE)
 }
 
 /// The files and folders in a folder, by name.

@@ -15,7 +15,9 @@ pub(super) fn next(reason: &NoPath) -> &'static str {
         | NoPath::Enclosed { .. }
         | NoPath::GaveUp(_) => "There may be one: try another --planner.",
         NoPath::Unsuited(_) => "Try another --planner.",
-        NoPath::Unreachable { .. } => "Choose another --to; --barrier FILE writes the proof.",
+        NoPath::Unreachable { .. } => {
+            "Choose another --to, or a smaller --tube or --clearance; --barrier FILE writes the proof."
+        }
         _ => "Choose another --to.",
     }
 }

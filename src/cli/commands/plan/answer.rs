@@ -89,8 +89,16 @@ impl PlanAnswer {
 
     /// There is no path, or none was found.
     pub fn of_none(task: &Task, planner: PlannerName, seed: u64, reason: &NoPath) -> Self {
-        let answer = if matches!(reason, NoPath::Unreachable { .. }) { "none" } else { "undecided" };
-        PlanAnswer { answer, reason: Some(reason.to_string()), next: next(reason), ..Self::new(task, planner, seed) }
+        let none = Self::new(task, planner, seed);
+        let next = next(reason);
+        match reason {
+            // cells are proven by the exact geometry, whoever answers a planner's questions
+            NoPath::Unreachable { .. } => {
+                let reason = Some(format!("{reason}{}", larger(task)));
+                PlanAnswer { answer: "none", reason, next, checker: None, proven: None, ..none }
+            }
+            _ => PlanAnswer { reason: Some(reason.to_string()), next, ..none },
+        }
     }
 
     /// How the command ends that gives this answer for want of a path.
@@ -156,4 +164,13 @@ impl PlanAnswer {
         }
         Ok(())
     }
+}
+
+/// For what the proof is where it is not the robot as it is: `, for the robot 0.02 m larger (--tube)`.
+fn larger(task: &Task) -> String {
+    let tube = if task.planned() == task.robot { 0.0 } else { task.tube };
+    let kept = [(tube, "--tube"), (task.clearance.unwrap_or(0.0), "--clearance")];
+    let kept = kept.iter().filter(|(kept, _)| *kept > 0.0).map(|(kept, name)| format!("{kept} m ({name})"));
+    let kept = kept.collect::<Vec<_>>().join(" and ");
+    if kept.is_empty() { kept } else { format!(", for the robot larger by {kept}") }
 }

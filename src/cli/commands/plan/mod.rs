@@ -88,7 +88,7 @@ impl PlanArgs {
                         let barrier = BarrierFile::of(&task, attempt.as_ref());
                         let missing = || Failure::internal(anyhow::anyhow!("the cells that prove it hold no barrier"));
                         barrier.ok_or_else(missing)?.write(target, data)?;
-                        answer.next = "Choose another --to.";
+                        answer.next = "Choose another --to, or a smaller --tube or --clearance.";
                     }
                     (barrier, _) => unwritten(barrier.as_ref(), "nothing is proven"),
                 }

@@ -103,6 +103,24 @@ fn a_car_dragged_sideways_turns_its_wheels_and_does_not_slide() {
 }
 
 #[test]
+fn an_undo_in_the_middle_of_a_tow_brings_back_the_run_before_and_adds_nothing() {
+    let mut harness = parked(false);
+    let lot = Model::lot();
+    let before = harness.state().script().clone();
+    let (body, to) = (on_screen(&harness, &lot, [5.2, 2.5]), on_screen(&harness, &lot, [10.5, 2.7]));
+    grip(&mut harness, body, to);
+    harness.run_steps(10);
+    assert!(harness.state().script().events.len() > before.events.len(), "it is towed");
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    harness.run_steps(10);
+    assert_eq!(interface(&harness).tow, None);
+    assert_eq!(*harness.state().script(), before);
+    pointer(&mut harness, to, Some(false));
+    harness.run_steps(3);
+    assert_eq!(*harness.state().script(), before, "nor when the pointer lets go");
+}
+
+#[test]
 fn a_car_that_is_let_go_of_stands_whatever_ends_the_tow() {
     let ends: [(&str, fn(&mut Harness<'_, Lab>, Pos2)); 6] = [
         ("release", |harness, at| pointer(harness, at, Some(false))),

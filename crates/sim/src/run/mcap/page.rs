@@ -12,7 +12,7 @@ const OPENING: &str = r#"<script type="text/plain" id="bytes">"#;
 /// # Errors
 /// [`LogError::Page`] for any other page.
 pub fn log_bytes(file: &[u8]) -> Result<Cow<'_, [u8]>, LogError> {
-    let begins = file.trim_ascii_start();
+    let begins = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file).trim_ascii_start();
     // a log begins with a byte that no text has
     if !begins.starts_with(b"<") { Ok(Cow::Borrowed(file)) } else { in_page(begins).map(Cow::Owned) }
 }
@@ -53,7 +53,7 @@ fn unpacked(letters: &str) -> Result<Vec<u8>, LogError> {
 /// In a browser the page around has unpacked it.
 #[cfg(target_family = "wasm")]
 fn unpacked(_: &str) -> Result<Vec<u8>, LogError> {
-    Err(LogError::Page("the browser opens it"))
+    Err(LogError::Page("the browser opens it, if it is named .html"))
 }
 
 #[cfg(test)]
@@ -82,7 +82,10 @@ mod tests {
         assert_eq!(*log_bytes(log).unwrap(), *log);
         assert_eq!(*log_bytes(b"").unwrap(), *b"");
         for held in [log.to_vec(), gzip(log)] {
-            assert_eq!(*log_bytes(&page(&BASE64_STANDARD.encode(held))).unwrap(), *log);
+            let page = page(&BASE64_STANDARD.encode(held));
+            assert_eq!(*log_bytes(&page).unwrap(), *log);
+            // as some editors save it
+            assert_eq!(*log_bytes(&[b"\xef\xbb\xbf", &page[1..]].concat()).unwrap(), *log);
         }
     }
 

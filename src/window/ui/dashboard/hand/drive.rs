@@ -45,7 +45,13 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
     };
     let elsewhere = ui.memory(|m| m.focused().is_some());
     let keys = if elsewhere { (0, 0) } else { ui.input(channels) };
-    state.tow = state.tow.take().filter(|tow| tow.robot == robot).and_then(|tow| tow.go_on(model.tick));
+    let tow = state.tow.take().filter(|tow| tow.robot == robot);
+    if tow.as_ref().is_some_and(|tow| tow.has_gone_back(model.tick)) {
+        // the run that came back has inputs of its own: to let go would be one more
+        state.held = (0, 0);
+        return;
+    }
+    state.tow = tow.and_then(|tow| tow.go_on(model.tick));
     let towed = state.tow.as_ref().map_or((0, 0), |tow| tow.channels);
     let by_hand = [keys, state.pad, state.stick, towed];
     let wanted = by_hand.into_iter().find(|channels| *channels != (0, 0)).unwrap_or_default();

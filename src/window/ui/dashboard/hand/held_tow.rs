@@ -49,9 +49,14 @@ impl HeldTow {
         self.is_held = true;
     }
 
+    /// Whether the run has gone back since the last frame.
+    pub fn has_gone_back(&self, tick: u64) -> bool {
+        self.tick.is_some_and(|before| tick < before)
+    }
+
     /// The tow in the next frame, at `tick`; `None` where the pointer has let go, or the run has gone back.
     pub fn go_on(self, tick: u64) -> Option<HeldTow> {
-        let has_gone_back = self.tick.is_some_and(|before| tick < before);
+        let has_gone_back = self.has_gone_back(tick);
         let passed = self.tick.map_or(0, |before| tick.saturating_sub(before));
         let next = HeldTow { is_held: false, tick: Some(tick), passed, ..self };
         (self.is_held && !has_gone_back).then_some(next)
