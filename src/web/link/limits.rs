@@ -33,8 +33,8 @@ pub const MAX_LINK_TICK: u64 = 72_000;
 /// Least number of ticks that a link's run is taken for: a minute, since it is played.
 pub const TICKS_AHEAD: u64 = 1200;
 
-/// The most work that the run of a link may be: rays, and pairs of a robot and what it may meet, over all its ticks. The
-/// tour's hour, the longest link of it, is a tenth.
+/// The most work that the run of a link may be: rays, and pairs of a robot and what it may meet, over all its ticks.
+/// The tour's hour, the longest link of it, is a tenth.
 pub const MAX_LINK_WORK: u64 = 400_000_000;
 
 /// Characters to escape: those with a meaning in a query, and those at which programs that find addresses in text stop.
