@@ -81,8 +81,9 @@ impl Link {
     /// The link that shows a run at its configuration's last tick.
     ///
     /// # Errors
-    /// [`LinkError::Number`] when the tick lies beyond [`MAX_LINK_TICK`]; [`LinkError::Name`] for a long name in a world
-    /// of one's own or of an added obstacle; [`LinkError::Work`] for a run that is more work than a reader waits for.
+    /// [`LinkError::Number`] when the tick lies beyond [`MAX_LINK_TICK`]; [`LinkError::Name`] for a long name in a
+    /// world of one's own or of an added obstacle; [`LinkError::Work`] for a run that is more work than a reader waits
+    /// for.
     pub fn of(recipe: &Recipe) -> Result<Self, LinkError> {
         let Recipe { seed, config, script } = recipe;
         let usual = TourConfig::default();
