@@ -124,6 +124,18 @@ fn the_answer_is_a_path_none_or_undecided() {
         assert_eq!((ended.code, &said["answer"]), (Some(code), &value!(answer)), "{passage}: {said}");
         assert_eq!(said["solved"], solved, "{passage}: {said}");
     }
+    // the proof is about the robot that is planned for, and says so; cells prove it whoever answers the planner
+    let reason = |more: &[&str]| {
+        let ended = plan(folder.path(), &court(0.1), &[&OUT_OF_THE_COURT[..], &by_cells, more].concat());
+        let said = json(&ended.out);
+        assert_eq!((ended.code, said.get("proven")), (Some(7), None), "{said}");
+        said["reason"].as_str().unwrap().split_once("world's bounds").unwrap().1.to_owned()
+    };
+    assert_eq!(reason(&[]), ", for the robot larger by 0.02 m (--tube)");
+    assert_eq!(reason(&["--tube", "0"]), "");
+    let both = ", for the robot larger by 0.01 m (--tube) and 0.05 m (--clearance)";
+    assert_eq!(reason(&["--tube", "0.01", "--clearance", "0.05"]), both);
+    assert_eq!(reason(&["--tube", "0", "--checker", "parry"]), "");
     let undecided = plan(folder.path(), &court(0.27), &[&OUT_OF_THE_COURT[..], &by_cells[..2]].concat()).failed(4);
     let words = "motion-lab: undecided: cells of 0.0625 by 0.046875 m are proven neither free nor blocked\n\
                  There may be one: try another --planner.\n";

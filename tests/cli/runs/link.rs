@@ -61,7 +61,7 @@ fn a_run_that_fits_in_no_address_is_refused_and_an_unfinished_one_has_no_digest(
     run(&["record", "--world", &yard, "--ticks", "30", "-o", &log]).done();
     let refused = run(&["link", &log]);
     assert_eq!((refused.code, &*refused.out), (Some(3), ""));
-    assert!(refused.err.contains("run.mcap: file: the name \"a name that ...\" has more than 32"), "{}", refused.err);
+    assert!(refused.err.contains("run.mcap: the name \"a name that ...\" has more than 32"), "{}", refused.err);
     let none = run(&["link", &path("none.mcap")]);
     assert!(none.code == Some(3) && none.err.contains("none.mcap"), "{}", none.err);
     let place = run(&["link", &log, "--site", "example.org"]);
