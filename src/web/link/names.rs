@@ -12,7 +12,7 @@ pub fn check(world: &World) -> Result<(), LinkError> {
     let ways = routes.iter().map(|r| &r.name).chain(places.iter().map(|p| &p.name));
     let rest = marks.iter().map(|m| &m.name).chain(robots.iter().map(|r| &r.name));
     let sensors = robots.iter().flat_map(|r| &r.sensors).map(|s| &s.name);
-    [name].into_iter().chain(things).chain(ways).chain(rest).chain(sensors).try_for_each(check_name)
+    [name].into_iter().chain(things).chain(ways).chain(rest).chain(sensors).try_for_each(|name| check_name(name))
 }
 
 /// Refuses a script that adds an obstacle with such a name.
@@ -21,12 +21,12 @@ pub fn check_added(script: &Script) -> Result<(), LinkError> {
         WorldChange::Add { name, .. } => Some(name),
         _ => None,
     });
-    added.into_iter().try_for_each(check_name)
+    added.into_iter().try_for_each(|name| check_name(name))
 }
 
-fn check_name(name: &String) -> Result<(), LinkError> {
+fn check_name(name: &str) -> Result<(), LinkError> {
     let is_long = name.chars().count() > MAX_NAME;
-    if is_long || name.contains(is_mark) { Err(LinkError::Name(name.clone())) } else { Ok(()) }
+    if is_long || name.contains(is_mark) { Err(LinkError::Name(name.to_owned())) } else { Ok(()) }
 }
 
 /// Whether a character is not seen, or turns the direction of text.
