@@ -224,10 +224,10 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     match((own, w) => own.widget.id === w.id && own.widget.kind === w.kind);
     for (const own of free) {
       const isRead = own.element.contains(document.activeElement);
-      const isInside = own.element.parentNode === above && opener.element.isConnected;
+      const wasInside = own.element.parentNode === above && opener.element.isConnected;
       own.element.remove();
       // out of a menu or a list that closes, the reader comes back to its button
-      if (isRead) isInside ? opener.control.focus({ preventScroll: true }) : leave();
+      if (isRead) wasInside ? opener.control.focus({ preventScroll: true }) : leave();
     }
     return found;
   }
@@ -245,7 +245,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
   }
 
   /** Whether what is open is a list to choose from. */
-  const isList = () => opener?.widget.kind === "combo";
+  const isList = () => opener.widget.kind === "combo";
 
   /** Puts what is open behind its button, in the order of Tab too, and says what it is. */
   function open(items) {
@@ -255,7 +255,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     }
     const place = opener.element.parentNode === container ? opener.element.nextSibling : null;
     if (!above.isConnected) container.insertBefore(above, place);
-    const name = opener?.control.textContent ?? "";
+    const name = opener.control.textContent;
     above.setAttribute("role", isList() ? "listbox" : "group");
     above.setAttribute("aria-label", name);
     for (const { control, element, widget } of items) {

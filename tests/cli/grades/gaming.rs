@@ -170,7 +170,8 @@ fn every_file_of_a_folder_is_a_row_or_left_out_by_name() {
         ("in/kim.txt", NOTHING),
         ("in/x.mcap.partial", ""),
         ("in/page.html", "<html><p>what Moodle adds</p>"),
-        ("in/saved.html", "<!doctype html><title>A run of the motion lab</title>"),
+        // what the lab fills in, with no run in it yet
+        ("in/saved.html", include_str!("../../../assets/web/saved.html")),
         ("in/._ann.ron", "\u{0}"),
         ("in/none", ""),
         ("in/LOG.Mcap", "not a log"),
@@ -182,7 +183,7 @@ fn every_file_of_a_folder_is_a_row_or_left_out_by_name() {
     let points = [serde_json::Value::Null, 0.0.into(), serde_json::Value::Null];
     assert_eq!([0, 1, 2].map(|row: usize| rows[row]["points"].clone()), points, "what can't be read has none");
     assert!(rows[0]["refused"].is_string() && rows[1]["refused"].is_null(), "{rows:?}");
-    assert_eq!(rows[2]["refused"], "this is a page, and it holds no run");
+    assert_eq!(rows[2]["refused"], "this is a page, and its run is not base64: it was changed");
     for (file, reason) in [
         ("kim.txt", "its name ends in none of .ron, .mcap, .html and .csv"),
         ("none", "its name ends in none of"),

@@ -12,7 +12,7 @@ use motion_lab_sim::tow::Tow;
 
 use super::crowd::arena;
 
-/// A run in an arena of 5 m to each side, in which `it` is towed to each of these points for so many ticks.
+/// A run in an arena of 5 m to each side, in which the robot `it` is towed to each point for its number of ticks.
 fn towed(kind: &str, start: &[f64], aims: &[(Point2, u64)]) -> Log {
     let ticks = aims.iter().map(|(_, ticks)| ticks).sum();
     let config = TourConfig { worlds: vec![arena(5.0, &[("it", kind, start)])], ticks, sensor: None };

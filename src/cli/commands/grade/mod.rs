@@ -138,7 +138,7 @@ impl GradeArgs {
                 Ok(SubmissionFile::Forged(reason)) => {
                     Graded { forged_at: Some(0), ..Graded::refused(name.clone(), &assignment, reason) }
                 }
-                Ok(SubmissionFile::None(reason)) => Graded::not_graded(name.clone(), &assignment, reason),
+                Ok(SubmissionFile::NotGraded(reason)) => Graded::not_graded(name.clone(), &assignment, reason),
                 Err(failure @ Failure::Input { .. }) => {
                     is_missing = true;
                     let reason = reason_of(&failure, name);
@@ -201,13 +201,13 @@ enum SubmissionFile {
     /// A run that is refused.
     Refused(String),
     /// Nothing that can be graded.
-    None(String),
+    NotGraded(String),
 }
 
 /// What a file holds. Only one that can't be read at all is a failure.
 fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<SubmissionFile, Failure> {
     if path.is_dir() {
-        return Ok(SubmissionFile::None("no script, log, page or table is in this folder".into()));
+        return Ok(SubmissionFile::NotGraded("no script, log, page or table is in this folder".into()));
     }
     if ["mcap", "html", "htm"].contains(&&*ending(path)) {
         return Ok(read_run(&read_bytes(path, MAX_LOG)?, expected));
@@ -219,7 +219,7 @@ fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Submission
     if ending(path) == "csv" {
         let (file, ron) = (path.display(), path.with_extension("ron"));
         let ron = ron.display();
-        return Ok(SubmissionFile::None(format!(
+        return Ok(SubmissionFile::NotGraded(format!(
             "a table is no script; make one of it: motion-lab script convert {file} -o {ron}"
         )));
     }
@@ -227,7 +227,7 @@ fn read_submission(path: &Path, expected: &ExpectedDigests) -> Result<Submission
     let script = String::from_utf8(bytes)
         .map_err(|_| "no script: it is not UTF-8".to_owned())
         .and_then(|text| Script::parse(&file, &text).map_err(|error| error.to_string()));
-    Ok(script.map_or_else(SubmissionFile::None, |script| SubmissionFile::Submission(Submission::Script(script))))
+    Ok(script.map_or_else(SubmissionFile::NotGraded, |script| SubmissionFile::Submission(Submission::Script(script))))
 }
 
 /// The run in the bytes of a log or of a saved page.
@@ -237,7 +237,7 @@ fn read_run(bytes: &[u8], expected: &ExpectedDigests) -> SubmissionFile {
         // where a frame was changed too, the replay finds the first
         Err(LogError::OtherRun(other)) if replays(&other.read.log) => return SubmissionFile::Forged(other.to_string()),
         Err(LogError::OtherRun(other)) => other.read.log,
-        Err(error) => return SubmissionFile::None(error.to_string()),
+        Err(error) => return SubmissionFile::NotGraded(error.to_string()),
     };
     // the digest of a long log takes a while
     let digest = if expected.is_any() { log.digest() } else { None };

@@ -16,7 +16,7 @@ const MAX_SUBMISSIONS: usize = 100_000;
 /// The endings of what can be handed in, in any case of letters.
 const ENDINGS: [&str; 5] = ["ron", "mcap", "csv", "html", "htm"];
 
-/// The title of every page that the lab saves, and how far into a page it is looked for, bytes.
+/// The title of every page that the lab saves (assets/web/saved.html), and how far into a page it is looked for, bytes.
 const SAVED_TITLE: &str = "<title>A run of the motion lab</title>";
 const HEAD: u64 = 4096;
 

@@ -68,7 +68,7 @@ pub struct ShrinkArgs {
     /// How many runs are tried at most.
     #[arg(long, value_name = "N", default_value_t = 10_000)]
     tries: u64,
-    /// Leave each world as it is, or out, so that a run in the lab's own worlds still has a link.
+    /// Leave each world as it is, or out, so that a run in the lab's own worlds keeps a short link.
     #[arg(long)]
     keep_worlds: bool,
     #[command(flatten)]

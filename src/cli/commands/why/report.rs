@@ -41,7 +41,7 @@ struct ChanceReport<'a> {
     path_rad: Option<JsonNumber>,
     #[serde(skip_serializing_if = "Option::is_none")]
     arrives: Option<u64>,
-    /// The earliest tick that was looked at, and how many branches; null where nothing was searched.
+    /// The earliest tick that was searched, and the number of branches; null where nothing was searched.
     earliest: Option<u64>,
     branches: Option<u64>,
     /// Why there is none.

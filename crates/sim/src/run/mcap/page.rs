@@ -96,7 +96,7 @@ mod tests {
         let sum = changed.len() - 8;
         changed[sum] ^= 1;
         let letters = |bytes: &[u8]| page(&BASE64_STANDARD.encode(bytes));
-        // 256 MiB and a byte, in a quarter of a megabyte
+        // 256 MiB and a byte, in less than two
         let bomb = gzip(&vec![0; (256 << 20) + 1]);
         assert!(bomb.len() < 2 << 20, "{}", bomb.len());
         for (page, why) in [
