@@ -118,6 +118,26 @@ fn an_undo_in_the_middle_of_a_tow_brings_back_the_run_before_and_adds_nothing() 
     pointer(&mut harness, to, Some(false));
     harness.run_steps(3);
     assert_eq!(*harness.state().script(), before, "nor when the pointer lets go");
+    // what waits for the next tick would be in the script after it
+    (0..3).for_each(|_| click(&mut harness, "Step"));
+    harness.run_steps(3);
+    assert_eq!(*harness.state().script(), before, "nor with the ticks to come");
+}
+
+#[test]
+fn going_back_in_the_middle_of_a_tow_drops_nothing_of_the_run() {
+    let mut harness = parked(false);
+    let lot = Model::lot();
+    let (body, to) = (on_screen(&harness, &lot, [5.2, 2.5]), on_screen(&harness, &lot, [10.5, 2.7]));
+    grip(&mut harness, body, to);
+    harness.run_steps(10);
+    let towed = harness.state().script().clone();
+    harness.key_press(Key::Home);
+    harness.run_steps(10);
+    pointer(&mut harness, to, Some(false));
+    (0..3).for_each(|_| click(&mut harness, "Step"));
+    let after = harness.state().script().clone();
+    assert!(after.events.starts_with(&towed.events), "{after:?}");
 }
 
 #[test]
