@@ -163,7 +163,7 @@ fn where_nothing_is_proven_no_barrier_is_written() {
     }
     for (more, reason) in [
         (&["--planner", "rrt-connect"][..], "--barrier: rrt-connect proves no barrier"),
-        (&["--checker", "parry"], "a barrier is a proof, and parry proves nothing"),
+        (&["--checker", "parry"], "--barrier rests on proofs, and parry proves nothing"),
         (&["--compare", "cell-decomposition,rrt"], "cannot be used with"),
     ] {
         let error = plan(at, &court(0.0), &[&to_proof[..], more].concat()).failed(2);
@@ -172,4 +172,41 @@ fn where_nothing_is_proven_no_barrier_is_written() {
     let car = ["--robot", "hitch", "--from", "0.5,0.5,0", "--to", "0.5,0.6,0", "--barrier", "proof.json"];
     assert!(plan(at, &court(0.0), &car).failed(2).contains("which no car can drive"));
     assert_eq!(fs::read_to_string(at.join("proof.json")).unwrap(), "an older file");
+}
+
+#[test]
+fn what_to_move_is_the_least_that_lets_a_path_through() {
+    let folder = tempfile::tempdir().unwrap();
+    let ask = |world: &str, more: &[&str]| {
+        plan(folder.path(), world, &[&["--robot", "R", "--to", "3,1", "--what-blocks"], more].concat())
+    };
+    assert!(ask(SHUT, &[]).failed(7).ends_with("what blocks: there is a path if you take away \"between\"\n"));
+    // a second wall and a shut door behind the first: three things, and no two of them
+    let third = SHUT.replace("(2, 4)])]", "(2, 4)]), (name: \"behind\", points: [(2.4, 0), (2.4, 4)])]");
+    let world = third.replace(
+        "robots:",
+        "obstacles: [(name: \"low\", shape: Box(min: (2.6, 0), max: (2.7, 1.5))), (name: \"high\", shape: Box(min: (2.6, 2.5), max: (2.7, 4)))],
+         doors: [(name: \"gate\", hinge: (2.65, 1.5), end: (2.65, 2.5), open: false)], robots:",
+    );
+    let said = ask(&world, &[]).failed(7);
+    let end = "there is a path if you open \"gate\" and take away \"behind\", \"between\"; no fewer will do\n";
+    assert!(said.ends_with(end), "{said}");
+    let ended = ask(&world, &["--json"]);
+    let blockers = &json(&ended.out)["blockers"];
+    let names: Vec<_> =
+        blockers["things"].as_array().unwrap().iter().map(|thing| (&thing["kind"], &thing["name"])).collect();
+    let [door, wall] = [value!("door"), value!("wall")];
+    let expected = [(&door, &value!("gate")), (&wall, &value!("behind")), (&wall, &value!("between"))];
+    assert_eq!((ended.code, &names[..], &blockers["least"]), (Some(7), &expected[..], &value!(true)), "{blockers}");
+    assert!(blockers["tried"].as_u64().unwrap() >= 4 && blockers.get("doors").is_none(), "{blockers}");
+    // where there is a path nothing is said of it; a car has no cells
+    assert!(!ask(&SHUT.replace("(2, 4)]", "(2, 2)]"), &["--json"]).done().contains("blockers"));
+    let car = ["--robot", "hitch", "--from", "0.5,0.5,0", "--to", "0.5,0.6,0", "--what-blocks"];
+    assert!(plan(folder.path(), SHUT, &car).failed(2).contains("--planner"));
+    for (more, reason) in [
+        (["--planner", "rrt-connect"], "--what-blocks: rrt-connect proves no barrier"),
+        (["--checker", "parry"], "--what-blocks rests on proofs, and parry proves nothing"),
+    ] {
+        assert!(ask(SHUT, &more).failed(2).contains(reason));
+    }
 }

@@ -24,6 +24,7 @@ mod judged;
 mod named;
 mod path_file;
 mod picture;
+mod removal;
 mod task;
 
 pub use attempt::{FileLeg, LegControl, LegMotion, PathLengths, PlanAttempt, Trial};
@@ -34,4 +35,5 @@ pub use judged::{JudgedPath, MAX_JUDGED};
 pub use named::PlannerName;
 pub use path_file::{Counts, MAX_PATH_BYTES, PathFile, PathFileError};
 pub use picture::{space_items, workspace_items};
+pub use removal::{Blocker, BlockerKind, NoRemoval, Removal};
 pub use task::{MAX_CLEARANCE, TUBE, Task};

@@ -16,7 +16,8 @@ pub(super) fn next(reason: &NoPath) -> &'static str {
         | NoPath::GaveUp(_) => "There may be one: try another --planner.",
         NoPath::Unsuited(_) => "Try another --planner.",
         NoPath::Unreachable { .. } => {
-            "Choose another --to, or a smaller --tube or --clearance; --barrier FILE writes the proof."
+            "--what-blocks says what to move, and --barrier FILE writes the proof; or choose another --to, or a smaller \
+             --tube or --clearance."
         }
         _ => "Choose another --to.",
     }

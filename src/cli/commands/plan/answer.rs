@@ -7,6 +7,7 @@ use motion_lab::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
 
 use super::advice::next;
+use super::blockers::BlockersAnswer;
 use super::exact::ExactAnswer;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome};
@@ -52,6 +53,9 @@ pub struct PlanAnswer {
     /// Why there is no path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
+    /// What to move for a path to appear, where that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub blockers: Option<BlockersAnswer>,
     /// What to do then.
     #[serde(skip)]
     pub next: &'static str,
@@ -82,6 +86,7 @@ impl PlanAnswer {
             contacts: None,
             digest: None,
             reason: None,
+            blockers: None,
             next: "",
             unit: unit(&task.robot),
         }

@@ -14,7 +14,8 @@ use std::path::PathBuf;
 /// A path is certified: every leg has the steps that prove it free, and a verifier of its own has checked them before
 /// the path is printed. Where no path is found within the bound on iterations, where the start or the goal is in
 /// contact, or where a planner has searched all that it looks at, that is said, and the exit code is 4. Where
-/// cell-decomposition proves that there is no path, it is 7, and --barrier writes the proof.
+/// cell-decomposition proves that there is no path, it is 7; --barrier writes the proof, and --what-blocks says what to
+/// move.
 ///
 /// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
 /// the run in which the script plays it, with --svg to a picture, with --gif to a film of the planner's growth. What
@@ -33,6 +34,7 @@ Examples:
   motion-lab plan --planner rrt-connect --robot reach --from 2.0,0 --to 3.1,0 --seed 7 -o path.json --script out.ron
   motion-lab plan --robot hitch --from 6.5,2.5,0,0 --to 6.75,7,-1.5707963,-1.5707963 --record parked.mcap
   motion-lab plan --robot Rusty --world shut.ron --to 9.75,6.25 --barrier proof.json
+  motion-lab plan --robot Rusty --world shut.ron --to 9.75,6.25 --what-blocks
   motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv
   motion-lab plan --compare rrt-connect,a-star --robot rusty --world arena.ron --problems arena.scen --csv all.csv")]
 pub struct PlanArgs {
@@ -99,6 +101,10 @@ pub struct PlanArgs {
     /// part the start from the goal. By cell-decomposition, which then need not be named.
     #[arg(long, value_name = "FILE", conflicts_with = "compare")]
     pub(super) barrier: Option<PathBuf>,
+    /// Where there is no path, say what to move: the least set of doors to open and obstacles to take away for which a
+    /// proven path appears. By cell-decomposition, which then need not be named.
+    #[arg(long, conflicts_with = "compare")]
+    pub(super) what_blocks: bool,
     /// Print the result as JSON.
     #[arg(long)]
     pub(super) json: bool,

@@ -5,6 +5,7 @@ mod advice;
 mod answer;
 mod args;
 mod barrier_file;
+mod blockers;
 mod cases;
 mod compare;
 pub mod drawing;
@@ -32,6 +33,7 @@ use advice::in_words;
 use answer::PlanAnswer;
 pub use args::PlanArgs;
 use barrier_file::BarrierFile;
+use blockers::BlockersAnswer;
 use cases::Cases;
 pub use rounds::solve;
 use targets::PlanTargets;
@@ -53,9 +55,9 @@ impl PlanArgs {
         }
         let Cases { task, all } = Cases::of(&self)?;
         let task = Task { checker: self.checker, clearance: self.clearance, ..task };
-        if !task.checker.proves() && self.barrier.is_some() {
-            let reason = format!("a barrier is a proof, and {} proves nothing", task.checker.id());
-            return Err(Failure::usage(reason, "Leave out --checker, or --barrier."));
+        if let (false, Some(option)) = (task.checker.proves(), self.asks_for_cells()) {
+            let reason = format!("{option} rests on proofs, and {} proves nothing", task.checker.id());
+            return Err(Failure::usage(reason, format!("Leave out --checker, or {option}.")));
         }
         if !task.checker.proves() && (self.script.is_some() || self.record.is_some()) {
             let reason = format!("a script plays a path that is proven, and {} proves nothing", task.checker.id());
@@ -69,7 +71,10 @@ impl PlanArgs {
         let begun = Instant::now();
         let mut attempt = match task::attempt(&task, name, Seed(self.seed))? {
             Ok(attempt) => attempt,
-            Err(reason) => return self.none(&PlanAnswer::of_none(&task, name, self.seed, &reason), data),
+            Err(reason) => {
+                return self
+                    .none(self.with_blockers(PlanAnswer::of_none(&task, name, self.seed, &reason), &task), data);
+            }
         };
         let progress = CommandProgress::uncounted("iterations");
         // Ctrl-C ends the process while nothing is written
@@ -92,7 +97,7 @@ impl PlanArgs {
                     }
                     (barrier, _) => unwritten(barrier.as_ref(), "nothing is proven"),
                 }
-                self.none(&answer.after(attempt.effort()), data)
+                self.none(self.with_blockers(answer.after(attempt.effort()), &task), data)
             }
         }
     }
@@ -101,21 +106,40 @@ impl PlanArgs {
     fn planner_for(&self, task: &Task) -> Result<PlannerName, Failure> {
         let by_cells = PlannerName::CellDecomposition;
         match self.planner {
-            Some(name) if self.barrier.is_some() && name != by_cells => {
-                let reason = format!("--barrier: {} proves no barrier, only {} does", name.id(), by_cells.id());
-                Err(Failure::usage(reason, format!("Use --planner {}, or leave out --barrier.", by_cells.id())))
+            Some(name)
+                if name != by_cells
+                    && let Some(option) = self.asks_for_cells() =>
+            {
+                let reason = format!("{option}: {} proves no barrier, only {} does", name.id(), by_cells.id());
+                Err(Failure::usage(reason, format!("Use --planner {}, or leave out {option}.", by_cells.id())))
             }
-            None if self.barrier.is_some() => Ok(by_cells),
+            None if self.asks_for_cells().is_some() => Ok(by_cells),
             name => Ok(name.unwrap_or(PlannerName::default_for(&task.robot))),
         }
     }
 
+    /// The option that needs cells proven free or blocked.
+    fn asks_for_cells(&self) -> Option<&'static str> {
+        match self {
+            Self { barrier: Some(_), .. } => Some("--barrier"),
+            Self { what_blocks: true, .. } => Some("--what-blocks"),
+            _ => None,
+        }
+    }
+
+    /// The answer with what to move, where that is asked.
+    fn with_blockers(&self, mut answer: PlanAnswer, task: &Task) -> PlanAnswer {
+        answer.blockers = self.what_blocks.then(|| BlockersAnswer::of(task.what_blocks()));
+        answer
+    }
+
     /// Says that there is no path.
-    fn none(&self, answer: &PlanAnswer, data: &mut Data) -> Result<Outcome, Failure> {
+    fn none(&self, answer: PlanAnswer, data: &mut Data) -> Result<Outcome, Failure> {
         if self.json {
-            data.json(answer)?;
+            data.json(&answer)?;
         } else if let Some(reason) = &answer.reason {
-            say(format!("{}\n{}", in_words(reason), answer.next));
+            let next = answer.blockers.as_ref().map_or_else(|| answer.next.to_owned(), BlockersAnswer::words);
+            say(format!("{}\n{next}", in_words(reason)));
         }
         Ok(answer.without_path())
     }
