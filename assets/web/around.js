@@ -1,7 +1,7 @@
 // The page around a frame: what it may ask of the lab, and what it hears.
 
 /** What a page around may ask. A control's own number, keys and text are the reader's. */
-const ASKED = "light play pause step step_back reset reroll seek why way_out seed widget tab lesson configuration robot door theme figure state link save".split(" ");
+const ASKED = "light open play pause step step_back reset reroll seek why way_out seed widget tab lesson configuration robot door theme figure state link save".split(" ");
 
 /** What a page around hears. The run, the settings and what is copied are the reader's. */
 const HEARD = "ready state lesson figure link saved done error failed".split(" ");
@@ -35,7 +35,7 @@ export function around({ ask, askReader, refuse }) {
   return tell;
 }
 
-function originOf(address) {
+export function originOf(address) {
   try {
     return new URL(address).origin;
   } catch {

@@ -13,8 +13,8 @@ use super::inbox::{Incoming, take_all, wake};
 use super::listener::tell;
 use super::message::{Input, Message, PageRequest, WidgetAction};
 use super::report::Sent;
-use super::run_link::link_of;
-use crate::web::link::MAX_LINK_TICK;
+use super::run_link::{RunBefore, link_of, show_address};
+use crate::web::link::{Link, MAX_LINK_TICK};
 use crate::window::for_page::{
     Interface, explain, open_log, open_path_text, open_world_text, play_way_out, seek_in_background, stop_background,
 };
@@ -159,6 +159,14 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
             let text = "not copied: the browser does not let the page copy".to_owned();
             ui.say(Notice { text, is_error: true });
         }),
+        Message::Open { query } => {
+            let address = Link::read(&query);
+            // who asks hears what is wrong; half of an address would be another one
+            address.run.clone().and(address.view.clone())?;
+            stop_background(world);
+            show_address(world, address, RunBefore::Other);
+            Ok(None)
+        }
         Message::Play => transport(world, TransportCommand::Play),
         Message::Pause => transport(world, TransportCommand::Pause),
         Message::Step => transport(world, TransportCommand::Step),

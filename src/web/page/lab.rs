@@ -17,14 +17,11 @@ use super::downloads::files;
 use super::inbox::{Incoming, put, wake, wake_by};
 use super::listener::{listen, tell};
 use super::message::{Message, PageRequest};
-use super::report::{LinkedTheme, Sent, report};
-use super::run_link::open_link;
-use crate::web::link::{Link, ReadLink, requoted};
+use super::report::{Sent, report};
+use super::run_link::{RunBefore, show_address};
+use crate::web::link::{Link, ReadLink};
 use crate::window::for_page::{Interface, limit, windowed_app};
-use crate::window::ui::{Notice, Settings};
-use motion_lab_core::configuration::Configuration as _;
-use motion_lab_sim::manifest::Widget;
-use motion_lab_sim::simulation::{Playback, Transport};
+use crate::window::ui::Settings;
 
 /// Largest mark of a request, bytes.
 const MAX_OF_MARK: usize = 100;
@@ -125,53 +122,15 @@ struct StartArguments {
 
 fn start(world: &mut World) {
     let Some(StartArguments { link, embedded, settings }) = world.remove_resource() else { return };
-    let ReadLink { link, run, view } = link;
-    let refused = run.and(view).err();
-    let mut refused = refused.map(|error| Notice { text: format!("the link: {error}"), is_error: true });
     if let Some(proxy) = world.get_resource::<EventLoopProxyWrapper>() {
         let proxy = (**proxy).clone();
         // it fails only when the lab has ended
         wake_by(move || _ = proxy.send_event(WinitUserEvent::WakeUp));
     }
-    {
-        let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-        ui.embedded = embedded;
-        ui.settings = settings;
-        ui.widget = link.widget.or(link.tab.map(|_| Widget::Anatomy)).unwrap_or_default();
-        if let Some(lesson) = link.lesson {
-            ui.begin(lesson);
-        }
-        let query = &mut ui.anatomy.anatomy;
-        query.tab = link.tab.unwrap_or(query.tab);
-        if !link.q.is_empty() {
-            let refusal = match query.q().with_coordinates(&link.q) {
-                Some(q) => query.set_q(q).err().map(|error| error.to_string()),
-                None => Some(format!("the robot has {} coordinates", query.q().coordinates().len())),
-            };
-            refused = refused.or(refusal.map(|why| Notice { text: format!("the link: q: {why}"), is_error: true }));
-        }
-        let own = ui.settings.theme;
-        ui.settings.theme = link.theme.unwrap_or(own);
-        let linked = link.theme.map(|theme| LinkedTheme { theme, own });
-        linked.into_iter().for_each(|linked| world.insert_resource(linked));
-    }
-    // an address without a run plays the book's
-    let Link { widget, lesson, tab, q, theme, .. } = link.clone();
-    if link != (Link { widget, lesson, tab, q, theme, ..Link::default() }) {
-        let notice = match open_link(world, &link) {
-            Ok(notice) => notice,
-            Err(error) => Some(Notice { text: format!("the link: {}", requoted(&error)), is_error: true }),
-        };
-        if let Some(notice) = notice {
-            world.resource_mut::<Interface>().0.say(notice);
-        }
-    }
-    if let Some(refused) = refused {
-        world.resource_mut::<Interface>().0.say(refused);
-    }
-    if world.resource::<Interface>().0.widget != Widget::Dashboard {
-        world.resource_mut::<Transport>().playback = Playback::Paused;
-    }
+    let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+    ui.embedded = embedded;
+    ui.settings = settings;
+    show_address(world, link, RunBefore::Books);
 }
 
 /// Number of frames, a second apart, after which a paused lab that nobody touches sleeps for good.

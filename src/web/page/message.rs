@@ -55,6 +55,11 @@ pub enum Message {
     },
     /// The browser refuses what was to be copied.
     NotCopied,
+    /// Show what an address holds.
+    Open {
+        /// The address behind its question mark.
+        query: String,
+    },
     /// Play the run.
     Play,
     /// Pause the run.

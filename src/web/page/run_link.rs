@@ -3,7 +3,8 @@
 use bevy::ecs::world::World;
 
 use super::error::PageError;
-use crate::web::link::Link;
+use super::report::LinkedTheme;
+use crate::web::link::{Link, ReadLink, requoted};
 use crate::window::for_page::{Interface, SessionError, new_run, shown_run};
 use crate::window::ui::{AnatomyState, Notice};
 use motion_lab_core::configuration::Configuration as _;
@@ -11,6 +12,73 @@ use motion_lab_sim::anatomy::Anatomy;
 use motion_lab_sim::manifest::{ThemeChoice, Widget};
 use motion_lab_sim::run::Digest;
 use motion_lab_sim::simulation::{Playback, Transport, recipe, seek};
+
+/// The run that is there before an address is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunBefore {
+    /// The book's at its first tick, which an address without a run asks for.
+    Books,
+    /// Another.
+    Other,
+}
+
+/// Shows what an address holds: what is in front of the lab, and the run. The lab says what of it is refused.
+pub fn show_address(world: &mut World, address: ReadLink, before: RunBefore) {
+    let ReadLink { link, run, view } = address;
+    let mut refused = run.and(view).err().map(|error| error.to_string());
+    let refusal = show_view(world, &link);
+    refused = refused.or(refusal.map(|why| format!("q: {why}")));
+    let Link { widget, lesson, tab, q, theme, .. } = link.clone();
+    let has_run = link != (Link { widget, lesson, tab, q, theme, ..Link::default() });
+    if has_run || before == RunBefore::Other {
+        let told = open_link(world, &link);
+        let notice = told.unwrap_or_else(|error| Some(refusal_of(&requoted(&error))));
+        notice.into_iter().for_each(|notice| world.resource_mut::<Interface>().0.say(notice));
+    }
+    if let Some(why) = refused {
+        world.resource_mut::<Interface>().0.say(refusal_of(&why));
+    }
+    if world.resource::<Interface>().0.widget != Widget::Dashboard {
+        world.resource_mut::<Transport>().playback = Playback::Paused;
+    }
+}
+
+fn refusal_of(why: &str) -> Notice {
+    Notice { text: format!("the link: {why}"), is_error: true }
+}
+
+/// Puts in front what a link names. Returns why Query's robot can't be where it says, if it can't.
+fn show_view(world: &mut World, link: &Link) -> Option<String> {
+    let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+    ui.widget = link.widget.or(link.tab.map(|_| Widget::Anatomy)).unwrap_or_default();
+    ui.lesson = None;
+    if let Some(lesson) = link.lesson {
+        ui.begin(lesson);
+    }
+    // an address is about Query's usual robot
+    if (link.tab.is_some() || !link.q.is_empty()) && !is_books(&ui.anatomy.anatomy) {
+        ui.anatomy = AnatomyState::default();
+    }
+    let query = &mut ui.anatomy.anatomy;
+    query.tab = link.tab.unwrap_or(query.tab);
+    let refusal = if link.q.is_empty() { None } else { put(query, &link.q).err() };
+    if let Some(lesson) = ui.lesson.as_mut().filter(|_| !link.q.is_empty()) {
+        lesson.start = Some(query.q());
+    }
+    if let Some(theme) = link.theme {
+        let shown = std::mem::replace(&mut ui.settings.theme, theme);
+        let own = world.get_resource::<LinkedTheme>().map_or(shown, |linked| linked.own);
+        world.insert_resource(LinkedTheme { theme, own });
+    }
+    refusal
+}
+
+/// Puts Query's robot at chart coordinates.
+fn put(query: &mut Anatomy, q: &[f64]) -> Result<(), String> {
+    let count = query.q().coordinates().len();
+    let q = query.q().with_coordinates(q).ok_or_else(|| format!("the robot has {count} coordinates"))?;
+    query.set_q(q).map_err(|error| error.to_string())
+}
 
 /// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
 pub fn open_link(world: &mut World, link: &Link) -> Result<Option<Notice>, SessionError> {

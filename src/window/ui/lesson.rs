@@ -4,7 +4,7 @@ use super::atlas::{FIRST_CELL, Mode};
 use super::dashboard::hand::drive;
 use super::dashboard::twins;
 use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, PlanState, UiState};
-use motion_lab_core::configuration::RobotKind;
+use motion_lab_core::configuration::{AnyConfiguration, RobotKind};
 use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::manifest::{HintTask, Lesson, Widget};
 use motion_lab_sim::simulation::TransportCommand;
@@ -25,6 +25,7 @@ impl UiState {
 pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let Some(under_way) = state.lesson.as_mut().filter(|under_way| !under_way.is_ready) else { return };
     under_way.is_ready = true;
+    let start = under_way.start.take();
     let Lesson { task, widget } = under_way.lesson;
     state.fills = false;
     drive::let_go(state, commands);
@@ -51,11 +52,11 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
             }
         }
         Widget::Anatomy => {
-            state.anatomy = super::AnatomyState::default();
+            state.anatomy = query_at(start);
             state.anatomy.anatomy.tab = tab_of(task);
         }
         Widget::Cspace => {
-            state.anatomy = super::AnatomyState::default();
+            state.anatomy = query_at(start);
             state.cspace = CspaceState::default();
         }
         Widget::Atlas => {
@@ -68,6 +69,16 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
         }
         Widget::Plan => state.plan = PlanState::default(),
     }
+}
+
+/// Query as it begins, its robot at `start` where that is a configuration of it.
+fn query_at(start: Option<AnyConfiguration>) -> super::AnatomyState {
+    let mut state = super::AnatomyState::default();
+    if let Some(q) = start {
+        // another robot's is none of this one's
+        _ = state.anatomy.set_q(q);
+    }
+    state
 }
 
 /// What a lesson that has just been done taught, with the reader's own numbers where it is about one state of a robot.

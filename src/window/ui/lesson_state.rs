@@ -1,5 +1,6 @@
 //! `LessonState`, the lesson under way.
 
+use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_sim::manifest::{HintTask, Lesson};
 
 /// The lesson under way.
@@ -7,6 +8,8 @@ use motion_lab_sim::manifest::{HintTask, Lesson};
 pub struct LessonState {
     /// Which one it is.
     pub lesson: Lesson,
+    /// Where Query's robot, which is the configuration space's too, stands when it begins; `None` for its usual place.
+    pub start: Option<AnyConfiguration>,
     /// The seconds that it took, once it has been done.
     pub took: Option<f64>,
     /// What was learnt, once it has been done.
@@ -22,7 +25,15 @@ pub struct LessonState {
 impl LessonState {
     /// The lesson at its beginning.
     pub fn begun(lesson: Lesson) -> Self {
-        LessonState { lesson, took: None, learnt: String::new(), began: None, is_ready: false, was_done: true }
+        LessonState {
+            lesson,
+            start: None,
+            took: None,
+            learnt: String::new(),
+            began: None,
+            is_ready: false,
+            was_done: true,
+        }
     }
 
     /// Takes in what was done in a frame, by `now` in seconds. Returns whether that ended it.

@@ -166,11 +166,17 @@ fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<FigureEntry>
     let frame = vec![vec![[x, y], [right, y], [right, bottom], [x, bottom], [x, y]]];
     entries.push(FigureEntry::Bare(Primitive::Lines { lines: frame, role: Role::Hairline, line: Line::solid(1.0) }));
     let mut baseline = bottom + LEADING + 2.0;
-    if panel.picture.in_metres {
-        entries.extend(scale_bar(&fit, right, baseline));
-    }
     if !panel.heading.is_empty() {
         entries.push(FigureEntry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
+    }
+    if panel.picture.in_metres {
+        let bar = ScaleBar::new(fit.px_per_metre(), 80.0);
+        // under the heading where the two do not fit side by side
+        let is_narrow =
+            estimated_width(&panel.heading, 14.0) + estimated_width(&bar.label, 11.0) + bar.length_px + 12.0
+                > rect.size[0];
+        baseline += if is_narrow && !panel.heading.is_empty() { LEADING } else { 0.0 };
+        entries.extend(scale_bar(bar, right, baseline));
     }
     let columns = (rect.size[0] / (11.0 * 0.61)) as usize;
     for line in panel.readout.iter().flat_map(|line| wrapped(line, columns)) {
@@ -178,6 +184,11 @@ fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<FigureEntry>
         entries.push(FigureEntry::Bare(text(x, baseline, &line, Face::Mono, 11.0, Role::Muted)));
     }
     baseline + 4.0
+}
+
+/// Width of a line of text, as wide letters of a sans face make it, pixels.
+fn estimated_width(line: &str, size: f64) -> f64 {
+    0.6 * size * line.chars().count() as f64
 }
 
 /// Whether a stroke or area goes beyond a rectangle.
@@ -207,8 +218,7 @@ fn wrapped(line: &str, columns: usize) -> Vec<String> {
 }
 
 /// A scale bar that ends at `right`.
-fn scale_bar(fit: &Fit, right: f64, baseline: f64) -> [FigureEntry; 2] {
-    let bar = ScaleBar::new(fit.px_per_metre(), 80.0);
+fn scale_bar(bar: ScaleBar, right: f64, baseline: f64) -> [FigureEntry; 2] {
     let (left, y) = (right - bar.length_px, baseline - 4.0);
     let lines = vec![
         vec![[left, y], [right, y]],
@@ -235,6 +245,28 @@ fn text(left: f64, baseline: f64, text: &str, face: Face, size: f64, role: Role)
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_heading_and_a_scale_bar_stand_apart() {
+        let picture = Picture::new("p", crate::worlds::World::workbench().bounds);
+        let [wide, narrow] = [300.0, 150.0].map(|width| {
+            let panel = Panel { picture: picture.clone(), heading: "Reach · Workbench".into(), readout: vec![] };
+            let mut entries = vec![];
+            let rect = ScreenRect { min: [0.0, 0.0], size: [width, width] };
+            lay_out_panel(&panel, rect, &mut entries);
+            let height = |wanted: &str| {
+                let of = |entry: &FigureEntry| match entry {
+                    FigureEntry::Bare(Primitive::Text { at, text, .. }) if text.ends_with(wanted) => Some(at[1]),
+                    _ => None,
+                };
+                entries.iter().find_map(of).unwrap()
+            };
+            height(" m") - height("Workbench")
+        });
+        // the two sizes of letters have their middles apart on one baseline
+        assert!(wide.abs() < 2.0, "{wide}");
+        assert!(narrow > 10.0, "{narrow}: one line lower");
+    }
 
     #[test]
     fn a_panel_alone_in_its_row_is_not_much_higher_than_the_others() {

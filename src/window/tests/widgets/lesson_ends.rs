@@ -2,6 +2,7 @@
 
 use super::lessons::{Reader, ui, under_way};
 use super::*;
+use motion_lab_core::configuration::Configuration as _;
 
 #[test]
 fn the_lesson_of_two_elbows_begins_where_the_other_is_reached_and_ends_with_both() {
@@ -57,5 +58,25 @@ fn nothing_below_moves_as_a_lesson_ends() {
         });
         harness.run_steps(4);
         assert_eq!(paper(&harness, "Apartment"), before, "{size:?}");
+    }
+}
+
+#[test]
+fn a_lesson_of_an_address_begins_where_the_address_says_and_one_without_at_its_usual_place() {
+    for id in ["near", "over_edge"] {
+        let mut harness = lab(WIDE);
+        let place = |harness: &Harness<'static, Lab>| interface(harness).anatomy.anatomy.q();
+        let elsewhere = place(&harness).with_coordinates(&[0.5, 1.25]).unwrap();
+        ui(&mut harness, |ui| {
+            ui.begin(motion_lab_sim::manifest::Lesson::of(id).unwrap());
+            ui.lesson.as_mut().unwrap().start = Some(elsewhere);
+        });
+        harness.run_steps(4);
+        assert_eq!(place(&harness).coordinates(), [0.5, 1.25], "{id}");
+        // begun again it is the lesson that everybody has: the book's arm at 45 and 90 degrees
+        ui(&mut harness, |ui| ui.begin(motion_lab_sim::manifest::Lesson::of(id).unwrap()));
+        harness.run_steps(4);
+        let usual = [std::f64::consts::FRAC_PI_4, std::f64::consts::FRAC_PI_2];
+        assert_eq!(place(&harness).coordinates(), usual, "{id}");
     }
 }

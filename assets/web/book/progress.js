@@ -1,0 +1,73 @@
+// What a reader has done: a dot for each section, the answers to its questions, kept for the next visit and told to a page around.
+import { originOf } from "./around.js";
+import { printed } from "./live.js";
+
+const KEPT = "motion-lab/book";
+
+/** The names of what was done before; none where the browser keeps nothing. */
+function kept() {
+  try {
+    return new Set(JSON.parse(localStorage.getItem(KEPT)) ?? []);
+  } catch {
+    return new Set();
+  }
+}
+
+/** Makes the dots of the sections under `headings`, whose tasks are figures with lessons and questions. */
+export function progress({ headings, figures }) {
+  const done = kept();
+  const answers = [...document.querySelectorAll(".answer")];
+  answers.forEach((answer, i) => (answer.dataset.task = `answer-${i + 1}`));
+  const tasks = [...figures.filter((figure) => figure.dataset.lesson).map((figure) => [figure.id, figure]), ...answers.map((answer) => [answer.dataset.task, answer])];
+  const sections = headings.map((heading, i) => {
+    const next = headings[i + 1];
+    const within = (element) => heading.compareDocumentPosition(element) & Node.DOCUMENT_POSITION_FOLLOWING && !(next && next.compareDocumentPosition(element) & Node.DOCUMENT_POSITION_FOLLOWING);
+    return { heading, dot: document.querySelector(`#dots a[href="#${heading.id}"]`).parentElement, own: tasks.filter(([, element]) => within(element)).map(([name]) => name) };
+  });
+
+  function show() {
+    for (const { dot, heading, own } of sections) {
+      const count = own.filter((name) => done.has(name)).length;
+      dot.toggleAttribute("data-done", own.length > 0 && count === own.length);
+      dot.toggleAttribute("data-part", count > 0 && count < own.length);
+      dot.firstElementChild.title = own.length ? `${heading.textContent}: ${count} of ${own.length} done` : heading.textContent;
+    }
+    const origin = parent === window ? null : (location.ancestorOrigins?.[0] ?? originOf(document.referrer));
+    const known = tasks.map(([name]) => name);
+    if (origin && origin !== "null") parent.postMessage({ motionLab: { kind: "progress", done: known.filter((name) => done.has(name)), of: known } }, origin);
+  }
+
+  const add = (name) => {
+    if (done.has(name)) return;
+    done.add(name);
+    try {
+      localStorage.setItem(KEPT, JSON.stringify([...done]));
+    } catch {
+      // it is kept for this visit
+    }
+    show();
+  };
+  for (const answer of answers) ask(answer, () => add(answer.dataset.task));
+  document.querySelectorAll(".then").forEach((then) => (then.hidden = !done.has(then.closest("figure").id)));
+  show();
+  return { done: add };
+}
+
+/** Compares an answer with what is right: as many digits as the book shows. */
+function ask(answer, right) {
+  const input = answer.querySelector("input");
+  const output = answer.querySelector("output");
+  const { unit, decimals } = input.dataset;
+  input.addEventListener("change", () => {
+    const given = Number(input.value.trim().replace(",", ".").replace("−", "-"));
+    const wanted = Number(input.dataset.answer);
+    if (input.value.trim() === "" || Number.isNaN(given)) return (output.textContent = "Give a number.");
+    const unitOnce = printed(wanted, unit, Number(decimals));
+    const near = Math.abs(given - parseFloat(unitOnce.replace("−", "-"))) <= 0.5 * 10 ** -Math.min(decimals, decimalsOf(input.value));
+    input.setAttribute("aria-invalid", String(!near));
+    output.textContent = near ? `Right: ${unitOnce}.` : "Not yet.";
+    if (near) right();
+  });
+}
+
+const decimalsOf = (text) => text.match(/[.,](\d+)/)?.[1].length ?? 0;

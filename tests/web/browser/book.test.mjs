@@ -1,0 +1,194 @@
+// The book: its numbers are the lab's, and its figures are the lab.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { after, before, test } from "node:test";
+import { join } from "node:path";
+import { Lab, begin, end, origin } from "./harness.mjs";
+import { lab } from "./on_page.mjs";
+import { book } from "../../../assets/web/book/build.mjs";
+
+before(begin);
+after(end);
+
+const ROOT = join(import.meta.dirname, "../../..");
+const CHAPTER = readFileSync(join(ROOT, "book/chapter.md"), "utf8");
+
+const modules = execFileSync(join(ROOT, "assets/web/book/modules"), { encoding: "utf8" }).trim();
+
+/** What the build says of a chapter's text; nothing where it is right. */
+function built(text) {
+  try {
+    book(text, { native: process.env.MOTION_LAB_NATIVE, modules });
+    return "";
+  } catch (error) {
+    return error.message;
+  }
+}
+
+/** The chapter with one part of it in other words. */
+function changed(from, to) {
+  assert.ok(CHAPTER.includes(from), from);
+  return CHAPTER.replace(from, to);
+}
+
+test("a digit that is not the lab's is named by its sentence, and so is a number that nothing stands behind", { timeout: 120000 }, () => {
+  assert.equal(built(CHAPTER), "");
+  const digit = built(changed("{0.0607 m: reading live query.distance} to the", "{0.0617 m: reading live query.distance} to the"));
+  assert.match(digit, /0\.0617 m is 0\.0607 by reading/);
+  assert.match(digit, /in: For the \[arm\].* to the \[block\]\(role:obstacle\)\.$/);
+  assert.match(built(changed("{(0.5, 1.0): corner}", "{(1.0, 0.5): corner}")), /\(1\.0, 0\.5\) is 0\.5 by corner/);
+  assert.match(built(changed("\\bind{0.0607}{byhand}", "\\bind{0.0608}{byhand}")), /0\.0608 is 0\.0607 by byhand/);
+  assert.match(built(changed("\\bind{0.0607}{byhand}", "0.0607")), /0\.0607 in a formula is bound to nothing/);
+  assert.match(built(changed("one metre before it.", "1 m before it.")), /1 m is bound to nothing\n {2}in: A wall stands at \$x = 3\$;/);
+  assert.match(built(changed("{18: armcontacts}", "{17: armcontacts}")), /17 is 18 by armcontacts \(record/);
+  assert.match(built(changed("{?: thick 0.0307 m}", "{?: thick 0.0306 m}")), /0\.0306 m is 0\.0307/);
+  assert.match(built(changed("{3 cm: thickness}", "{3 mm: thickness}")), /3 mm is 30 by thickness/);
+  assert.match(built(changed("(role:robot) of a robot", "(move:nowhere) of a robot")), /no figure above is called nowhere/);
+});
+
+test("a digit that changes in a world is named by the sentence that tells it", { timeout: 120000 }, () => {
+  const folder = mkdtempSync(join(tmpdir(), "world-"));
+  const moved = join(folder, "wall.ron");
+  writeFileSync(moved, readFileSync(join(ROOT, "book/one_wall.ron"), "utf8").replace("(3, 0), (3, 3)", "(3.01, 0), (3.01, 3)"));
+  // three facts follow from that wall: Rusty's radius, told first, its distance and the witness
+  const told = built(CHAPTER.replaceAll("book/one_wall.ron", moved));
+  rmSync(folder, { recursive: true });
+  assert.match(told, /0\.11 m is 0\.10 by radius/);
+  assert.match(told, /in: It is held one radius before, \{0\.11 m: radius\} for Rusty/);
+});
+
+lab("nothing of the lab is loaded before a figure is touched, and the first view weighs at most 100 kB", "/", async ({ page }) => {
+  const loaded = [];
+  page.on("response", async (response) => loaded.push({ url: response.url(), bytes: Number(response.headers()["content-length"]) }));
+  await page.goto(`${origin()}/book.html`, { waitUntil: "networkidle" });
+  assert.ok(loaded.length > 5);
+  assert.deepEqual(loaded.filter(({ url }) => /wasm|\/lab\.|\/light\./.test(url)), []);
+  const bytes = loaded.reduce((sum, { bytes }) => sum + bytes, 0);
+  assert.ok(bytes < 100_000, `${bytes} bytes`);
+}, { wait: false });
+
+/** Opens the book and goes into a figure; gives the lab's frame once it draws. */
+async function within(page, id) {
+  await page.goto(`${origin()}/book.html`);
+  await page.click(`#${id} .frame`);
+  await page.waitForSelector("#frame:not([data-waits])", { timeout: 90000 });
+  return page.frames()[1];
+}
+const seen = (frame, wanted) => frame.waitForFunction(wanted, null, { timeout: 20000 });
+
+lab("a figure's numbers, words and links are one with it", "/", async ({ page }) => {
+  const frame = await within(page, "witness");
+  const number = page.locator('.live[data-live="query.distance"]').last();
+  await seen(frame, () => window.received.state?.query?.tab === "witness");
+  assert.equal(await number.textContent(), "0.0607 m");
+  assert.equal(await number.getAttribute("data-moved"), null);
+
+  // by hand: at (45, 90 + x) degrees the second link turns about the elbow; at 1.75 rad its line passes the corner at
+  // |(corner - elbow) x direction| = |-0.2071 * sin(2.5354) - 0.2929 * cos(2.5354)| = 0.1228
+  const [dx, dy, heading] = [0.5 - Math.SQRT1_2, 1 - Math.SQRT1_2, Math.PI / 4 + 1.75];
+  const byHand = Math.abs(dx * Math.sin(heading) - dy * Math.cos(heading)).toFixed(4);
+  await page.click("text=bend the elbow");
+  await page.waitForFunction((text) => [...document.querySelectorAll('.live[data-live="query.distance"]')].at(-1).textContent === text, `${byHand} m`);
+  assert.equal(await number.getAttribute("data-moved"), "");
+  assert.match(await number.getAttribute("title"), /0\.0607 m/);
+
+  await page.hover("#witness figcaption .role-witness");
+  await seen(frame, () => window.received.state.lit === "witness");
+  assert.equal(await page.locator("#witness figcaption .role-witness").getAttribute("data-lit"), "");
+  await page.mouse.move(5, 500);
+  await seen(frame, () => window.received.state.lit === null);
+  await frame.evaluate(() => window.motionLab.send({ do: "light", role: "obstacle" }));
+  await page.waitForSelector(".term.role-obstacle[data-lit]");
+}, { wait: false, timeout: 240000 });
+
+lab("one frame serves the figure that is read; the others keep their last picture and are found as they were left", "/", async ({ page }) => {
+  const frame = await within(page, "witness");
+  await frame.evaluate(() => window.motionLab.send({ do: "configuration", coordinates: [0.5, 1.25] }));
+  await seen(frame, () => window.received.state.query?.coordinates[0] === 0.5);
+  const still = await page.getAttribute("#witness img", "src");
+  await page.click("#worlds .frame");
+  await seen(frame, () => window.received.state.widget === "atlas");
+  await page.waitForFunction(() => document.querySelector("#witness img").src.startsWith("blob:"));
+  assert.notEqual(await page.getAttribute("#witness img", "src"), still);
+  assert.equal(await page.locator("iframe").count(), 1);
+  const over = async (id) => {
+    const [outer, inner] = [await page.locator(`#${id} .frame`).boundingBox(), await page.locator("#frame").boundingBox()];
+    return Math.abs(outer.x - inner.x) + Math.abs(outer.y - inner.y) + Math.abs(outer.width - inner.width) + Math.abs(outer.height - inner.height) < 4;
+  };
+  assert.ok(await over("worlds"), "it lies over its figure");
+  // who scrolls back finds the first figure at work again
+  await page.evaluate(() => document.activeElement.blur());
+  await page.locator("#witness").scrollIntoViewIfNeeded();
+  await page.evaluate(() => document.querySelector("#witness .frame").scrollIntoView({ block: "center" }));
+  await seen(frame, () => window.received.state.widget === "anatomy" && window.received.state.query?.coordinates[0] === 0.5);
+  assert.ok(await over("witness"));
+  assert.equal(page.frames().length, 2, "no second lab was loaded");
+}, { wait: false, timeout: 240000 });
+
+lab("a figure is one stop of Tab: Enter goes in, Escape out", "/", async ({ page }) => {
+  await page.goto(`${origin()}/book.html`);
+  const stops = await page.evaluate(() => [...document.querySelectorAll("figure.lab a, figure.lab button:not(.term), figure.lab [tabindex]")].filter((e) => e.tabIndex >= 0 && !e.closest("figcaption")).length);
+  assert.equal(stops, await page.locator("figure.lab").count());
+  await page.focus("#witness .frame");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#frame:not([data-waits])", { timeout: 90000 });
+  await page.waitForFunction(() => document.activeElement.id === "frame");
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => document.activeElement.matches("#witness .frame"));
+  await page.keyboard.press("Tab");
+  assert.notEqual(await page.evaluate(() => document.activeElement.id), "frame", "Tab goes on in the text");
+}, { wait: false, timeout: 240000 });
+
+lab("answers are judged where they stand and kept; the dots tell, to a page around too", "/book.html", async ({ page }) => {
+  const answer = page.locator(".answer").first();
+  const give = async (text) => {
+    await answer.locator("input").fill(text);
+    await answer.locator("input").press("Tab");
+    return answer.locator("output").textContent();
+  };
+  assert.match(await give("0.0607"), /Not yet/);
+  assert.equal(await answer.locator("input").getAttribute("aria-invalid"), "true");
+  assert.match(await give("three"), /number/);
+  assert.match(await give("0,0307"), /Right: 0\.0307 m/, "a comma is a point");
+  const dot = page.locator('#dots a[href="#the-example-by-hand"]').locator("..");
+  assert.equal(await dot.getAttribute("data-done"), "");
+  await page.reload();
+  assert.equal(await dot.getAttribute("data-done"), "", "kept");
+  await page.evaluate(() => {
+    addEventListener("message", ({ data }) => (window.told = data.motionLab ?? window.told));
+    const frame = document.createElement("iframe");
+    frame.src = "book.html";
+    document.body.append(frame);
+  });
+  const told = await page.waitForFunction(() => window.told).then((handle) => handle.jsonValue());
+  assert.equal(told.kind, "progress");
+  assert.deepEqual(told.done, ["answer-1"]);
+  assert.ok(told.of.includes("witness") && told.of.includes("answer-5"));
+}, { wait: false });
+
+lab("the book fits a phone of 320 points, and its long formulas and code scroll in their own boxes", "/book.html", async ({ page }) => {
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 320);
+  const cut = await page.evaluate(() => [...document.querySelectorAll("main *")].filter((e) => e.getBoundingClientRect().right > 321 && !e.closest("pre, table, .formula")).map((e) => e.outerHTML.slice(0, 80)));
+  assert.deepEqual(cut, []);
+}, { wait: false, options: { viewport: { width: 320, height: 640 } } });
+
+test("without script the book is whole: pictures, formulas, numbers, and links that open the lab", { timeout: 120000 }, async () => {
+  const open = await Lab.open("/book.html", { wait: false, options: { javaScriptEnabled: false } });
+  const { page } = open;
+  const figures = page.locator("figure.lab");
+  for (let i = 0; i < (await figures.count()); i++) {
+    const frame = figures.nth(i).locator(".frame");
+    await frame.scrollIntoViewIfNeeded();
+    assert.match(await frame.getAttribute("href"), /^index\.html\?widget=\w+/);
+    assert.ok((await frame.locator("img").boundingBox()).height > 150, "its still has a height");
+  }
+  assert.ok((await page.locator("math").count()) > 40);
+  assert.equal(await page.locator('a[data-moves="witness"]').first().getAttribute("href"), "index.html?widget=anatomy&tab=witness&q=0.7853981633974483,1.75");
+  for (const link of await page.locator("#dots a").all()) {
+    const section = await link.getAttribute("href");
+    assert.equal(await page.locator(section).count(), 1, section);
+  }
+  assert.deepEqual(await open.close(), []);
+});
