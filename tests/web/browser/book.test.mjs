@@ -155,14 +155,14 @@ lab("answers are judged where they stand and kept; the dots tell, to a page arou
   const dot = page.locator('#dots a[href="#the-example-by-hand"]').locator("..");
   assert.equal(await dot.getAttribute("data-done"), "");
   await page.reload();
-  assert.equal(await dot.getAttribute("data-done"), "", "kept");
+  await dot.and(page.locator("[data-done]")).waitFor({ timeout: 10000 }); // kept
   await page.evaluate(() => {
-    addEventListener("message", ({ data }) => (window.told = data.motionLab ?? window.told));
+    addEventListener("message", ({ data }) => (window.heardProgress = data.motionLab ?? window.heardProgress));
     const frame = document.createElement("iframe");
     frame.src = "book.html";
     document.body.append(frame);
   });
-  const told = await page.waitForFunction(() => window.told).then((handle) => handle.jsonValue());
+  const told = await page.waitForFunction(() => window.heardProgress).then((handle) => handle.jsonValue());
   assert.equal(told.kind, "progress");
   assert.deepEqual(told.done, ["answer-1"]);
   assert.ok(told.of.includes("witness") && told.of.includes("answer-5"));
