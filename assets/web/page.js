@@ -112,14 +112,19 @@ function tellAnswer() {
   }, 400);
 }
 
+/** What the lab says of an arm's way to its other elbow that hits something. */
+const BLOCKED = /^the straight way (hits|is not proven)/;
+let blocked = ""; // those words, while they stand
+
 const { mirror, at, widgets, twin } = twins({
   container: $("controls"),
   send,
   titles: () => Object.values(files.widgets).map((widget) => widget.title),
-  // the notice in #heard or #urgent, and the formulas, which a frame does not show
-  said: () => [state?.notice?.text ?? "", ...(embedded ? [] : [...document.querySelectorAll("#formulas li:not([hidden])")].map((item) => item.title))],
+  // the notice and the way that is blocked in #heard or #urgent, and the formulas, which a frame does not show
+  said: () => [state?.notice?.text ?? "", blocked, ...(embedded ? [] : [...document.querySelectorAll("#formulas li:not([hidden])")].map((item) => item.title))],
   leave: () => canvas.focus({ preventScroll: true }),
   nudge,
+  alarm,
 });
 const look = fingers({ canvas, container: $("controls"), at, widgets, twin, embedded, announce });
 
@@ -229,6 +234,9 @@ const hear = {
     shown.light(message.lit);
   },
   tree(message) {
+    const words = message.widgets.find(({ kind, name }) => kind === "text" && BLOCKED.test(name))?.name ?? "";
+    if (words && words !== blocked) announce(words);
+    blocked = words;
     mirror(message.widgets);
     look();
   },
@@ -433,26 +441,20 @@ window.motionLab = { send, open, savedPage: runPage, memory: () => wasm?.memory.
 
 // ---- loading ----
 
-/** Which share of the compressed bytes has come once so many are unpacked. */
-function shareSent(unpacked) {
-  const after = [0, ...files.labUnpacks];
-  const part = after.findLastIndex((bytes) => bytes <= unpacked);
-  if (part === after.length - 1) return 1;
-  return (part + (unpacked - after[part]) / (after[part + 1] - after[part])) / (after.length - 1);
-}
-
-/** The response with the bytes that are sent counted as they come. A browser unpacks them first, and does not say how many they were. */
+/**
+ * The response with the bytes that are sent counted as they come. A browser unpacks them first and does not say how many they were; their
+ * share of all is nearly that of the unpacked ones.
+ */
 function counted(response) {
   const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
-  const whole = files.labUnpacks.at(-1);
   const isPacked = response.headers.has("content-encoding");
-  const total = isPacked ? Number(response.headers.get("content-length")) || files.labSent : whole;
+  const total = isPacked ? Number(response.headers.get("content-length")) || files.labSent : files.labBytes;
   $("total").textContent = megabytes(total);
   let unpacked = 0;
   const count = new TransformStream({
     transform(chunk, out) {
       unpacked += chunk.byteLength;
-      const share = isPacked ? shareSent(unpacked) : unpacked / whole;
+      const share = unpacked / files.labBytes;
       $("loaded").textContent = megabytes(share * total);
       $("progress").value = share;
       out.enqueue(chunk);
@@ -514,7 +516,7 @@ async function start() {
   const unwanted = new AbortController();
   const pieces = Promise.all([import(new URL(files.lab, location.href)), fetch(files.labWasm, { signal: unwanted.signal })]);
   // a browser takes a while to say whether it has WebGL 2, and paints nothing meanwhile: the picture comes first
-  await inTime(painted(), document.hidden ? 0 : 5000);
+  await inTime(painted(), document.hidden ? 0 : 3000);
   if (!document.createElement("canvas").getContext("webgl2")) {
     pieces.catch(() => {});
     unwanted.abort();

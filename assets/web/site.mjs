@@ -4,7 +4,7 @@ import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { brotliCompressSync, constants, createBrotliDecompress } from "node:zlib";
+import { brotliCompressSync, constants } from "node:zlib";
 import { policy } from "./policy.mjs";
 
 /** The most that the whole site may weigh, compressed. */
@@ -69,11 +69,12 @@ function inBoth({ id }) {
   return light.replace("</style>", media);
 }
 
-/** A picture as a part of the page, in the page's colours: without a style and names of its own. */
+/** A picture as a part of the page, in the page's colours: without a style and names of its own, to a tenth of a pixel. */
 const within = (svg, words) =>
   svg
     .replace(/<(style|metadata|title|desc)\b.*?<\/\1>\n?/gs, "")
     .replace(/ (xmlns|id|aria-labelledby)="[^"]*"/g, "")
+    .replace(/ d="[^"]*"/g, (line) => line.replace(/\d+\.\d+/g, (number) => String(Number(Number(number).toFixed(1)))))
     .replace("<svg", `<svg preserveAspectRatio="xMinYMin slice" aria-label="${escape(words)}"`);
 
 // the first of all is painted with the page itself
@@ -85,22 +86,8 @@ const files = {
   light: hashed("light.js", readFileSync(join(parts, "light.js")), "the simulator alone"),
   lightWasm: hashed("light.wasm", readFileSync(join(parts, "light_bg.wasm")), "the simulator alone"),
 };
-/** How many of a file's bytes a browser has once each further twentieth of the compressed copy is there. */
-async function unpacking({ name }) {
-  const sent = readFileSync(join(out, `${name}.br`));
-  const stream = createBrotliDecompress();
-  let unpacked = 0;
-  stream.on("data", (chunk) => (unpacked += chunk.length));
-  const after = [];
-  for (let part = 1; part <= 20; part++) {
-    await new Promise((done) => stream.write(sent.subarray(((part - 1) * sent.length) / 20, (part * sent.length) / 20), done));
-    after.push(unpacked);
-  }
-  return after;
-}
 const weight = weights.find((w) => w.name === files.labWasm);
-files.labSent = weight.compressed;
-files.labUnpacks = await unpacking(weight);
+Object.assign(files, { labBytes: weight.raw, labSent: weight.compressed });
 
 // the page that a run is saved in: its script and style are fixed, so their hashes are too
 const script = `${readFileSync(join(parts, "light.js"), "utf8")}\n${source("saved.js")}`;

@@ -38,6 +38,7 @@ for (const scheme of ["light", "dark"]) {
     await frame.close();
     for (const [name, path, more] of [
       ["widgets", "/widgets.html", {}],
+      ["loading", "/", { before: (page) => page.route("**/lab.*.wasm", () => {}) }],
       ["not loaded", "/", { before: (page) => page.route("**/lab.*.wasm", (route) => route.fulfill({ status: 503 })) }],
     ]) {
       const still = await Lab.open(path, { wait: false, options, ...more });
@@ -46,7 +47,7 @@ for (const scheme of ["light", "dark"]) {
       found[name] = (await wrong(still.page)).filter((text) => !/ iframe/.test(text));
       await still.close();
     }
-    assert.deepEqual(found, { dashboard: [], anatomy: [], cspace: [], atlas: [], plan: [], embed: [], widgets: [], "not loaded": [] });
+    assert.deepEqual(found, { dashboard: [], anatomy: [], cspace: [], atlas: [], plan: [], embed: [], widgets: [], loading: [], "not loaded": [] });
   });
 }
 
