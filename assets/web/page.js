@@ -23,6 +23,7 @@ const SETTINGS = "motion-lab/settings";
 const MOST_BYTES = 256 * 1024 * 1024;
 const MOST_QUERY = 8000;
 const BEFORE = "the run before";
+const LOADS = `Loading the lab, ${document.getElementById("total").textContent} MB`;
 
 let lab = null; // the lab's exports once it runs
 let wasm = null; // the memory and functions under them
@@ -111,14 +112,19 @@ function tellAnswer() {
   }, 400);
 }
 
+/** What the lab says of an arm's way to its other elbow that hits something. */
+const BLOCKED = /^the straight way (hits|is not proven)/;
+let blocked = ""; // those words, while they stand
+
 const { mirror, at, widgets, twin } = twins({
   container: $("controls"),
   send,
   titles: () => Object.values(files.widgets).map((widget) => widget.title),
-  // the notice in #heard or #urgent, and the formulas, which a frame does not show
-  said: () => [state?.notice?.text ?? "", ...(embedded ? [] : [...document.querySelectorAll("#formulas li:not([hidden])")].map((item) => item.title))],
+  // the notice and the way that is blocked in #heard or #urgent, and the formulas, which a frame does not show
+  said: () => [state?.notice?.text ?? "", blocked, ...(embedded ? [] : [...document.querySelectorAll("#formulas li:not([hidden])")].map((item) => item.title))],
   leave: () => canvas.focus({ preventScroll: true }),
   nudge,
+  alarm,
 });
 const look = fingers({ canvas, container: $("controls"), at, widgets, twin, embedded, announce });
 
@@ -182,7 +188,6 @@ const drawn = captures({ say, warn, save, tell: tellAll });
 
 const hear = {
   ready() {
-    $("loading").hidden = true;
     if (!embedded) canvas.focus({ preventScroll: true });
     scrollTo(0, 0);
     performance.mark("first-frame");
@@ -204,6 +209,7 @@ const hear = {
   state(message) {
     const before = state;
     state = message;
+    if (!before) requestAnimationFrame(uncover);
     root.dataset.theme = message.theme;
     if (toSeek !== null && message.notice?.text.startsWith(`${BEFORE}:`)) {
       send({ do: "seek", tick: toSeek });
@@ -228,6 +234,9 @@ const hear = {
     shown.light(message.lit);
   },
   tree(message) {
+    const words = message.widgets.find(({ kind, name }) => kind === "text" && BLOCKED.test(name))?.name ?? "";
+    if (words && words !== blocked) announce(words);
+    blocked = words;
     mirror(message.widgets);
     look();
   },
@@ -277,6 +286,13 @@ const hear = {
   failed: ({ text }) => stop(text),
 };
 
+/** Shows the lab in place of its picture: its first frames find out what fits where. */
+function uncover() {
+  root.dataset.lab = "running";
+  for (const [name, bytes] of waiting.splice(0)) attempt(() => lab.lab_open(name, bytes));
+  if ($("heard").textContent === LOADS) announce("The lab is there");
+}
+
 function listen(json, bytes) {
   const message = JSON.parse(json);
   hear[message.kind]?.(message, bytes);
@@ -290,7 +306,6 @@ function stop(reason) {
   failed = true;
   $("overlay-text").textContent = reason;
   $("overlay-tools").hidden = !parts;
-  $("loading").hidden = true;
   $("overlay").hidden = false;
   $("overlay-restart").focus();
 }
@@ -324,7 +339,6 @@ function lost() {
 function notLoaded(reason) {
   failed = true;
   delete root.dataset.lab;
-  $("loading").hidden = true;
   $("unloaded-text").textContent = `The lab could not be loaded (${reason}). Below are its widgets as pictures.`;
   $("unloaded").hidden = false;
 }
@@ -427,21 +441,38 @@ window.motionLab = { send, open, savedPage: runPage, memory: () => wasm?.memory.
 
 // ---- loading ----
 
-/** The response with its bytes counted as they come. */
+/**
+ * The response with the bytes that are sent counted as they come. A browser unpacks them first and does not say how many they were; their
+ * share of all is nearly that of the unpacked ones.
+ */
 function counted(response) {
   const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
-  $("total").textContent = megabytes(files.labBytes);
-  let loaded = 0;
+  const isPacked = response.headers.has("content-encoding");
+  const total = isPacked ? Number(response.headers.get("content-length")) || files.labSent : files.labBytes;
+  $("total").textContent = megabytes(total);
+  let unpacked = 0;
   const count = new TransformStream({
     transform(chunk, out) {
-      loaded += chunk.byteLength;
-      $("loaded").textContent = megabytes(loaded);
-      $("progress").value = loaded / files.labBytes;
+      unpacked += chunk.byteLength;
+      const share = unpacked / files.labBytes;
+      $("loaded").textContent = megabytes(share * total);
+      $("progress").value = share;
       out.enqueue(chunk);
     },
+    flush: () => void ($("loading").firstElementChild.textContent = "The lab starts"),
   });
   return new Response(response.body.pipeThrough(count), { headers: { "content-type": "application/wasm" } });
 }
+
+/** What comes with a frame, or nothing: a hidden page has none. */
+const inTime = (promise, milliseconds) => Promise.race([promise, new Promise((done) => setTimeout(done, milliseconds))]);
+
+/** Comes once there is something to see. */
+const painted = () =>
+  new Promise((done) => {
+    const observer = new PerformanceObserver((list) => list.getEntriesByName("first-contentful-paint").length && (observer.disconnect(), done()));
+    observer.observe({ type: "paint", buffered: true });
+  });
 
 /**
  * Where a pixel ratio is emulated, by developer tools say, Chromium gives elements' sizes in the screen's own pixels, and the lab would draw
@@ -452,22 +483,18 @@ async function measurePixels() {
     const observer = new ResizeObserver(([entry]) => (observer.disconnect(), done(entry)));
     observer.observe($("stage"));
   });
-  // a hidden page measures nothing
-  const entry = await Promise.race([measured, new Promise((done) => setTimeout(done, 300))]);
+  const entry = await inTime(measured, 300);
   const said = entry?.devicePixelContentBoxSize?.[0].inlineSize;
   if (said && Math.abs(said - entry.contentRect.width * devicePixelRatio) > 2) delete ResizeObserverEntry.prototype.devicePixelContentBoxSize;
 }
 
 /** What there is without WebGL 2: the pictures, in a frame that of its own widget; and a link's run, which the simulator alone plays. */
 async function withoutGraphics() {
+  delete root.dataset.lab;
   warn("This browser has no WebGL 2, which the lab draws with. Below are its widgets as pictures; a browser with hardware acceleration switched on shows the lab.");
   const query = location.search || location.hash;
   const fields = new URLSearchParams(query.replace(/^[?#]/, ""));
-  if (embedded) {
-    const ofLesson = Object.keys(files.widgets).find((id) => files.widgets[id].lessons.includes(fields.get("lesson")));
-    const own = document.getElementById(ofLesson ?? (Object.hasOwn(files.widgets, fields.get("widget") ?? "") ? fields.get("widget") : "dashboard"));
-    for (const figure of document.querySelectorAll("#still figure")) figure.hidden = figure !== own;
-  }
+  if (embedded) for (const figure of document.querySelectorAll("#still figure")) figure.hidden = figure.id !== root.dataset.opens;
   if (!Number(fields.get("tick"))) return;
   try {
     const light = await alone();
@@ -486,16 +513,17 @@ async function withoutGraphics() {
 }
 
 async function start() {
-  // asked for first: a browser takes a while to say whether it has WebGL 2
   const unwanted = new AbortController();
   const pieces = Promise.all([import(new URL(files.lab, location.href)), fetch(files.labWasm, { signal: unwanted.signal })]);
+  // a browser takes a while to say whether it has WebGL 2, and paints nothing meanwhile: the picture comes first
+  await inTime(painted(), document.hidden ? 0 : 3000);
   if (!document.createElement("canvas").getContext("webgl2")) {
     pieces.catch(() => {});
     unwanted.abort();
     return withoutGraphics();
   }
-  root.dataset.lab = "loading";
-  $("loading").hidden = false;
+  // who does not see the bar hears of a long load
+  setTimeout(() => root.dataset.lab === "loading" && !failed && announce(LOADS), 2000);
   try {
     const [[module, response]] = await Promise.all([pieces, measurePixels()]);
     if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);
@@ -506,9 +534,7 @@ async function start() {
   }
   try {
     lab.lab_start(location.search || location.hash, embedded, store(() => localStorage.getItem(SETTINGS)) ?? "", listen);
-    root.dataset.lab = "running";
     tellSystem();
-    for (const [name, bytes] of waiting.splice(0)) attempt(() => lab.lab_open(name, bytes));
   } catch (error) {
     stop(error.message ?? String(error));
   }

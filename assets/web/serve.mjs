@@ -1,9 +1,8 @@
 // A small static server for the site: types, the compressed copies, and the policy as a header too. For trying and for tests.
 import { createServer } from "node:http";
-import { createReadStream, existsSync, statSync } from "node:fs";
+import { createReadStream, existsSync, readFileSync, statSync } from "node:fs";
 import { join, normalize, extname, sep } from "node:path";
 import { fileURLToPath } from "node:url";
-import { POLICY } from "./policy.mjs";
 
 const TYPES = {
   ".html": "text/html; charset=utf-8",
@@ -30,6 +29,9 @@ function fileOf(folder, address) {
   return existsSync(named) && statSync(named).isFile() ? named : null;
 }
 
+/** The policy that a page brings in itself. */
+const policyOf = (page) => /http-equiv="Content-Security-Policy" content="([^"]*)"/.exec(readFileSync(page, "utf8"))?.[1] ?? "default-src 'none'";
+
 /** Serves `folder` on `port` (0: any that is free) of the loopback interface; gives the server once it listens. */
 export function serve(folder, port) {
   const server = createServer((request, response) => {
@@ -42,8 +44,7 @@ export function serve(folder, port) {
       "content-type": TYPES[extname(file)] ?? "application/octet-stream",
       "cache-control": /\.[0-9a-f]{12}\./.test(file) ? "public, max-age=31536000, immutable" : "no-cache",
       "x-content-type-options": "nosniff",
-      // pages that hold a run bring a policy of their own
-      ...(extname(file) === ".html" && !/saved\.[0-9a-f]{12}\./.test(file) && { "content-security-policy": POLICY }),
+      ...(extname(file) === ".html" && { "content-security-policy": policyOf(file) }),
       "referrer-policy": "no-referrer",
     };
     const compressed = `${file}.br`;

@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants } from "node:zlib";
-import { POLICY } from "./policy.mjs";
+import { policy } from "./policy.mjs";
 
 /** The most that the whole site may weigh, compressed. */
 const BUDGET = 4.2 * 1000 * 1000;
@@ -47,30 +47,47 @@ function hashed(name, contents, part) {
 }
 
 const colours = (theme) => Object.entries(lab.colours[theme]).map(([role, colour]) => `--${role}:${colour};`).join("");
-const roles = Object.keys(lab.colours.light).map((role) => `.role-${role}{--own:var(--${role});color:var(--${role})}`).join("\n");
+const roles = Object.keys(lab.colours.light).map((role) => `.role-${role},svg .${role}{--own:var(--${role})}.role-${role}{color:var(--${role})}`).join("\n");
+/** Until its first frame the lab shows the picture of the widget that the address opens. */
+const opened = lab.widgets.map(({ id }) => `html[data-lab=loading]:not([data-opens=${id}]) #${id}`).join();
+// paper is light
 const style =
   `:root{color-scheme:light;${colours("light")}}\n` +
-  `@media (prefers-color-scheme:dark){:root:not([data-theme=light]){color-scheme:dark;${colours("dark")}}}\n` +
-  `:root[data-theme=dark]{color-scheme:dark;${colours("dark")}}\n${roles}\n${source("style.css")}`;
+  `@media screen{@media (prefers-color-scheme:dark){:root:not([data-theme=light]){color-scheme:dark;${colours("dark")}}}\n` +
+  `:root[data-theme=dark]{color-scheme:dark;${colours("dark")}}}\n${roles}\n` +
+  `${source("style.css").replace(/\/\*.*?\*\/\n?/gs, "")}\n${opened}{display:none}`;
 
 /** The lines of a picture's style that say its colours. */
 const coloured = /^\.[\w-]+\.f\{fill:.*$\n/gm;
-const themed = (id, part) => {
+
+/** A picture in both themes: it asks the reader's system itself. */
+function inBoth(id) {
   const [light, dark] = ["light", "dark"].map((theme) => readFileSync(join(parts, `${id}-${theme}.svg`), "utf8"));
   const plain = (svg) => svg.replace(coloured, "").replace(/#[0-9a-f]{6}/g, "");
   if (plain(light) !== plain(dark)) throw new Error(`${id} in light and in dark are two pictures`);
-  // one picture in both themes: it asks the reader's system itself
   const media = `@media (prefers-color-scheme:dark){\n${dark.match(coloured).join("")}}\n</style>`;
-  return hashed(`${id}.svg`, light.replace("</style>", media), part);
-};
-const pictures = Object.fromEntries(lab.widgets.map(({ id }) => [id, themed(id, "pictures for readers without script")]));
+  return light.replace("</style>", media);
+}
+
+/** A picture as a part of the page, in the page's colours: without a style and names of its own, to a tenth of a pixel. */
+const within = (svg, words) =>
+  svg
+    .replace(/<(style|metadata|title|desc)\b.*?<\/\1>\n?/gs, "")
+    .replace(/ (xmlns|id|aria-labelledby)="[^"]*"/g, "")
+    .replace(/ d="[^"]*"/g, (line) => line.replace(/\d+\.\d+/g, (number) => String(Number(Number(number).toFixed(1)))))
+    .replace("<svg", `<svg preserveAspectRatio="xMinYMin slice" aria-label="${escape(words)}"`);
+
+// the first of all is painted with the page itself
+const [front, ...others] = lab.widgets;
+const pictures = Object.fromEntries(others.map((w) => [w.id, hashed(`${w.id}.svg`, inBoth(w.id), "pictures for readers without script")]));
 const files = {
   lab: hashed("lab.js", readFileSync(join(parts, "lab.js")), "the lab"),
   labWasm: hashed("lab.wasm", readFileSync(join(parts, "lab_bg.wasm")), "the lab"),
   light: hashed("light.js", readFileSync(join(parts, "light.js")), "the simulator alone"),
   lightWasm: hashed("light.wasm", readFileSync(join(parts, "light_bg.wasm")), "the simulator alone"),
 };
-files.labBytes = weights.find((w) => w.name === files.labWasm).raw;
+const weight = weights.find((w) => w.name === files.labWasm);
+Object.assign(files, { labBytes: weight.raw, labSent: weight.compressed });
 
 // the page that a run is saved in: its script and style are fixed, so their hashes are too
 const script = `${readFileSync(join(parts, "light.js"), "utf8")}\n${source("saved.js")}`;
@@ -81,19 +98,18 @@ const saved = fill(source("saved.html"), { script, style: css, "script-hash": ha
 files.saved = hashed("saved.html", saved, "the simulator alone");
 files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description, misconception: w.misconception, lessons: w.lessons }]));
 
-const picture = (w) => `<img src="${pictures[w.id]}" loading="lazy" alt="${escape(w.description)}">`;
+const picture = (w) => (w === front ? within(inBoth(w.id), w.description) : `<img src="${pictures[w.id]}" loading="lazy" alt="${escape(w.description)}">`);
+const opening = source("opening.js");
 // the modules that a script imports have hashes in their names, too
 const modules = {};
 const linked = (name) => source(name).replace(/(from |import\()"\.\/([\w-]+\.js)"/g, (_, how, other) => `${how}"./${modules[other]}"`);
 for (const name of ["pictures.js", "around.js", "beside.js", "pages.js", "twins.js", "fingers.js", "captures.js", "stick.js"]) modules[name] = hashed(name, linked(name), "the page");
-for (const name of ["live.js", "progress.js"]) modules[name] = hashed(name, linked(join("book", name)), "the book");
 const page = linked("page.js");
 // painting is loaded when it is asked for
-const { "pictures.js": _, "live.js": _live, "progress.js": _progress, ...first } = modules;
+const { "pictures.js": _, ...first } = modules;
 const preloads = [
   ...Object.values(first).map((name) => `<link rel="modulepreload" href="${name}">`),
   `<link rel="modulepreload" href="${files.lab}">`,
-  `<link rel="preload" href="${files.labWasm}" as="fetch" type="application/wasm" crossorigin>`,
 ].join("\n");
 
 /** The name of the robot that a formula's configuration is of. */
@@ -102,8 +118,10 @@ const robotOf = ({ robot, trailer }) => `${robot[0].toUpperCase()}${robot.slice(
 const values = {
   preloads,
   offline: offline ? " data-offline" : "",
-  policy: POLICY,
-  "style.css": hashed("style.css", style, "the page"),
+  policy: policy(hash(opening), hash(style)),
+  style,
+  opening,
+  megabytes: (files.labSent / 1e6).toFixed(1),
   "page.js": hashed("page.js", page, "the page"),
   "icon.svg": hashed("icon.svg", source("icon.svg"), "the page"),
   files: JSON.stringify(files).replace(/</g, "\\u003c"),
@@ -131,8 +149,9 @@ const values = {
     )
     .join("\n"),
 };
+for (const name of ["live.js", "progress.js"]) modules[name] = hashed(name, linked(join("book", name)), "the book");
 const book = JSON.parse(readFileSync(join(parts, "book.json"), "utf8"));
-const stills = Object.fromEntries(book.figures.map((id) => [`still.${id}`, themed(`book-${id}`, "the book")]));
+const stills = Object.fromEntries(book.figures.map((id) => [`still.${id}`, hashed(`book-${id}.svg`, inBoth(`book-${id}`), "the book")]));
 const chapter = {
   title: escape(book.title),
   body: fill(book.body, stills),
@@ -147,7 +166,8 @@ for (const [name, template, page] of [
   ["widgets.html", "widgets.html", "widgets"],
   ["book.html", "book/book.html", "book"],
 ]) {
-  const text = fill(source(template), { ...values, ...chapter, page });
+  // a frame shows no formulas
+  const text = fill(source(template), { ...values, ...chapter, page, ...(page === "embed" && { formulas: "" }) });
   pages[name] = hash(text);
   write(name, text, name === "book.html" ? "the book" : "the page");
 }

@@ -19,12 +19,15 @@ const PRESSED = ["button", "combo", "handle"];
 /** Kinds that hold a value: their name is drawn beside them as words, too. */
 const HOLDING = ["check", "slider", "number", "field"];
 
+/** Whether words say why a field's text is refused. */
+const refuses = (field, words) => words.startsWith(`${field.value}: `);
+
 /**
  * The twins in `container` of the canvas's controls. `send` sends the lab a message, `titles` gives the titles of its widgets, `said` what
- * the page says in its own elements, `leave` takes the focus when the twin that has it goes, and `nudge` may take a key on a drawing: it
- * returns whether it has.
+ * the page says in its own elements, `leave` takes the focus when the twin that has it goes, `nudge` may take a key on a drawing: it
+ * returns whether it has, and `alarm` says in #urgent why what was typed is refused.
  */
-export function twins({ container, send, titles, said, leave, nudge }) {
+export function twins({ container, send, titles, said, leave, nudge, alarm }) {
   let all = []; // the twins, in the order of the screen
   let told = []; // the canvas's widgets, as it tells them
   const rail = document.createElement("nav"); // the buttons that choose a widget
@@ -37,6 +40,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
   let isEntered = false; // whether the focus has gone into the list
   const above = document.createElement("div"); // what is in there, behind the button
   let asked = null; // the twin whose focus the lab has yet to take over
+  let refusal = ""; // why what a field holds is refused
   let follows = false; // whether the focus moves because the lab's has
 
   function make(widget) {
@@ -157,7 +161,11 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     control.disabled = off && !isRead;
     control.ariaDisabled = off ? "true" : null;
     if (widget.kind === "check") control.checked = widget.on;
-    else if (own.element.parentNode === rail) control.ariaCurrent = widget.on ? "page" : null;
+    else if (widget.kind === "field") {
+      const isRefused = refuses(widget, refusal);
+      control.ariaInvalid = isRefused ? "true" : null;
+      isRefused ? control.setAttribute("aria-describedby", "urgent") : control.removeAttribute("aria-describedby");
+    } else if (own.element.parentNode === rail) control.ariaCurrent = widget.on ? "page" : null;
     else if (widget.kind === "button" && widget.on !== undefined) control.setAttribute("aria-pressed", widget.on);
     if (widget.open !== undefined) control.ariaExpanded = String(widget.open);
     // what stays is not set again: that would take half a number from under the reader's fingers
@@ -234,7 +242,7 @@ export function twins({ container, send, titles, said, leave, nudge }) {
 
   /** The widgets without the words that are heard elsewhere: as the name of the control beside them, or from the page. */
   function once(widgets) {
-    const names = new Set([...widgets.filter(({ kind }) => HOLDING.includes(kind)).map(({ name }) => name), ...said()]);
+    const names = new Set([...widgets.filter(({ kind }) => HOLDING.includes(kind)).map(({ name }) => name), refusal, ...said()]);
     return widgets.filter(({ kind, name }) => kind !== "text" || !names.has(name));
   }
 
@@ -285,9 +293,18 @@ export function twins({ container, send, titles, said, leave, nudge }) {
     items[Number.isFinite(at) ? (at + items.length) % items.length : by < 0 ? 0 : items.length - 1]?.focus({ preventScroll: true });
   }, { capture: true });
 
+  /** Says once why what a field holds is refused: words above the rest that begin with it. */
+  function hearRefusal(tree) {
+    const fields = tree.filter(({ kind }) => kind === "field");
+    const words = tree.find(({ kind, layer, name }) => kind === "text" && layer !== undefined && fields.some((field) => refuses(field, name)))?.name ?? "";
+    if (words !== refusal) alarm(words);
+    refusal = words;
+  }
+
   /** Makes the twins those of the canvas's widgets. */
   function mirror(tree) {
     told = tree;
+    hearRefusal(tree);
     const widgets = once(tree);
     const layers = widgets.map((widget) => widget.layer).filter((layer) => layer !== undefined);
     if (!layers.includes(opened)) opened = (others && layers.find((layer) => !others.layers.has(layer))) ?? null;

@@ -42,7 +42,7 @@ pub fn act(action: SessionAction, model: &Dashboard, state: &mut UiState, comman
 }
 
 /// Largest width of a notice, points.
-const MAX_NOTICE: f32 = 560.0;
+const MAX_NOTICE: f32 = 520.0;
 
 /// Shows a widget's title, and at the right end its menu; on the dashboard with undo, redo and the plots beside it. On
 /// an upright narrow screen, where the picture comes first, the title is its name alone.
@@ -244,7 +244,7 @@ fn chance(ui: &mut Ui, state: &mut UiState) {
 
 /// Shows the work in the background and the last notice of the widget in front, with links to stop the one and dismiss
 /// the other; over the run, also the offer of the run before. They lie over the foot of the `stage`, so that nothing
-/// moves when they come and go.
+/// moves when they come and go, and at its right, where a wide screen has a picture and no links.
 pub fn notice(ctx: &Context, stage: Rect, look: &FrameColours, state: &mut UiState) {
     let offers = state.widget == Widget::Dashboard && state.offer.is_some();
     if state.notice().is_none_or(|notice| notice.is_error) {
@@ -256,7 +256,7 @@ pub fn notice(ctx: &Context, stage: Rect, look: &FrameColours, state: &mut UiSta
         return;
     }
     let width = (stage.width() - 24.0).min(MAX_NOTICE);
-    let place = PlateAnchor { at: stage.center_bottom() - vec2(0.0, 6.0), pivot: Align2::CENTER_BOTTOM, width };
+    let place = PlateAnchor { at: stage.right_bottom() - vec2(12.0, 6.0), pivot: Align2::RIGHT_BOTTOM, width };
     let put_away = plate(ctx, "notice", place, true, look, |ui| {
         if let Some(working) = &mut state.working {
             frame::rows_of_words(ui, |ui| {

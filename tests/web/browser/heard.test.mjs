@@ -102,3 +102,45 @@ lab("each formula is labelled, scrolls in its own box, and shows where it goes o
   assert.ok(before > 20 && after < 10, `the shadow is ${before} dark, and ${after} at the end`);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
 }, { options: { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true } });
+
+lab("a seed that is none is refused once: its field is invalid, and says why until it is mended", "/", async (lab) => {
+  const { page } = lab;
+  await lab.send({ do: "pause" });
+  await lab.until((s) => !s.playing);
+  const field = page.locator("#controls label:has-text('seed') input");
+  const why = "12.5: a seed is a whole number from 0 to 18446744073709551615";
+  const enter = async (text) => {
+    await field.focus();
+    await field.fill(text);
+    await field.press("Enter");
+  };
+  await enter("12.5");
+  await page.waitForFunction((words) => document.getElementById("urgent").textContent === words, why, { timeout: 30000 });
+  assert.equal(await field.getAttribute("aria-invalid"), "true");
+  const description = await field.evaluate((input) => document.getElementById(input.getAttribute("aria-describedby")).textContent);
+  assert.equal(description, why);
+  const times = (await read(lab)).filter(({ role, name }) => role === "StaticText" && name === why).length;
+  assert.equal(times, 1, "once");
+  assert.equal((await lab.state()).seed, "2005");
+  await enter("12");
+  await lab.until((s) => s.seed === "12");
+  await page.waitForFunction(() => document.getElementById("urgent").textContent === "");
+  assert.deepEqual(await field.evaluate((input) => [input.getAttribute("aria-invalid"), input.getAttribute("aria-describedby")]), [null, null]);
+});
+
+lab("the way to the other elbow that is blocked is said with what blocks it, once", "/", async (lab) => {
+  const { page } = lab;
+  await lab.send({ do: "pause" });
+  await lab.until((s) => !s.playing);
+  // halfway the arm is straight and points across the post
+  await lab.send({ do: "robot", robot: "Reach", teleport: [1.85, 1.4] });
+  await lab.send({ do: "step" });
+  await lab.until((s) => s.robots.some(({ name, coordinates }) => name === "Reach" && Math.abs(coordinates[0] - 1.85) < 0.02));
+  await page.locator("#controls button", { hasText: /^Bring Reach/ }).press("Enter");
+  await lab.find("the ghost has the same tip: send the arm there");
+  await page.locator("#controls button", { hasText: "One tip, two elbows" }).last().press("Enter");
+  const said = await lab.find(/^the straight way hits the post at s = 0\.\d+$/);
+  await page.waitForFunction((words) => document.getElementById("heard").textContent === words, said.name, { timeout: 20000 });
+  const times = (await read(lab)).filter(({ role, name }) => role === "StaticText" && name === said.name).length;
+  assert.equal(times, 1, "once");
+});

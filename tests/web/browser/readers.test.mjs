@@ -39,6 +39,7 @@ for (const scheme of ["light", "dark"]) {
     for (const [name, path, more] of [
       ["widgets", "/widgets.html", {}],
       ["book", "/book.html", {}],
+      ["loading", "/", { before: (page) => page.route("**/lab.*.wasm", () => {}) }],
       ["not loaded", "/", { before: (page) => page.route("**/lab.*.wasm", (route) => route.fulfill({ status: 503 })) }],
     ]) {
       const still = await Lab.open(path, { wait: false, options, ...more });
@@ -47,7 +48,7 @@ for (const scheme of ["light", "dark"]) {
       found[name] = (await wrong(still.page)).filter((text) => !/ iframe/.test(text));
       await still.close();
     }
-    assert.deepEqual(found, { dashboard: [], anatomy: [], cspace: [], atlas: [], plan: [], embed: [], widgets: [], book: [], "not loaded": [] });
+    assert.deepEqual(found, { dashboard: [], anatomy: [], cspace: [], atlas: [], plan: [], embed: [], widgets: [], book: [], loading: [], "not loaded": [] });
   });
 }
 
