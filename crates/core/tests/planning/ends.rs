@@ -1,7 +1,9 @@
 //! What planners say where there is no path.
 
+use motion_lab_core::collision::GoalRegion;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::planning::CellDecomposition;
+use motion_lab_core::planning::hybrid::HybridAStar;
 use motion_lab_core::robots::AnyRobot;
 
 use super::*;
@@ -135,4 +137,58 @@ fn from_a_place_to_itself_is_no_way_at_all() {
     let mut cells = CellDecomposition::new(Problem::try_new(checker, here, here, Seed(1)).unwrap());
     let path = solve(&mut cells, &Bounds::default()).unwrap();
     assert!(path.legs().len() == 1 && path.length(&motion_lab_core::planning::Metric::unit(&here)) == 0.0);
+}
+
+/// Planners of an arm, of a car and of a car with a trailer: the way is one leg in which nothing moves, from the start
+/// to the start, bit for bit.
+#[test]
+fn a_robot_of_any_kind_that_is_there_already_stays() {
+    let still = |name: &str, starts: bool, ends: bool, legs: usize, moves: f64| {
+        assert!(starts && ends && legs == 1 && moves == 0.0, "{name}: {starts} {ends}, {legs} legs, {moves} m");
+    };
+    let here = T2::new(2.0, -0.0);
+    let arm = Problem::try_new(round_the_post(1).checker().clone(), here, here, Seed(1)).unwrap();
+    for mut planner in planners(&arm) {
+        let path = solve(planner.as_mut(), &Bounds::default()).unwrap();
+        let most = path.legs()[0].motion().rates(1).speed;
+        still(planner.name(), path.start() == here, path.goal() == here, path.legs().len(), most);
+    }
+    let path =
+        solve(&mut CellDecomposition::new(reaching(Scene::workbench(), [2.0, 0.0], [2.0, 0.0])), &Bounds::default());
+    let path = path.unwrap();
+    still("cells", path.start() == path.goal(), true, path.legs().len(), path.legs()[0].motion().rates(1).speed);
+    for (car, trailer) in [(HITCH, None), (HITCH.with_trailer(), Some(0.3))] {
+        let here = HitchCfg { body: Pose2::new(6.5, 2.5, 0.1), trailer };
+        // also where only the goal's region holds it, which is not where the goal is
+        let beside = HitchCfg { body: Pose2::new(6.5625, 2.4375, 0.125), trailer: trailer.map(|psi| psi - 0.03) };
+        for goal in [here, beside] {
+            let problem = Problem::try_new(Checker::new(Scene::lot(), car), here, goal, Seed(1)).unwrap();
+            let mut planner = HybridAStar::new(problem);
+            let path = solve(&mut planner, &Bounds::of_iterations(1)).unwrap();
+            let arc = path.legs()[0].motion();
+            still("hybrid", path.start() == here, path.goal() == here, path.legs().len(), arc.rates(0).speed);
+            // a script can hold it: the wheels straight ahead for a tick
+            assert_eq!((arc.control(), arc.seconds()), (CarCmd { v: 0.0, phi: 0.0 }, 0.05));
+            assert!(planner.moves().is_empty() && planner.growth().nodes().len() == 1);
+        }
+    }
+}
+
+/// The places within half a metre of one.
+#[derive(Debug)]
+struct HalfMetre(R2);
+
+impl GoalRegion<R2> for HalfMetre {
+    fn contains(&self, q: &R2) -> bool {
+        (q.0 - self.0.0).norm() <= 0.5
+    }
+}
+
+#[test]
+fn a_start_in_the_region_of_a_goal_is_the_whole_path_of_a_tree() {
+    let (start, goal) = (R2::new(0.5, 0.5), R2::new(0.75, 0.25));
+    let problem = Problem::try_new(room(&[]), start, goal, Seed(1)).unwrap();
+    let problem = problem.try_with_region(std::sync::Arc::new(HalfMetre(goal))).unwrap();
+    let path = solve(&mut Rrt::new(problem), &Bounds::of_iterations(1)).unwrap();
+    assert_eq!(path.corners(), [start, start]);
 }

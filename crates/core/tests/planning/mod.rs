@@ -3,6 +3,7 @@
 mod barriers;
 mod bounds;
 mod bugs;
+mod cells;
 mod ends;
 mod own;
 mod paths;

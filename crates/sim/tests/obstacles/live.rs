@@ -141,3 +141,95 @@ fn a_door_where_a_robot_stands_stays_open_and_says_why() {
     seek(app.world_mut(), 3).unwrap();
     assert!(refused(&mut app).is_empty());
 }
+
+/// A post called `post` of these points and radius about (4.5, 7), and how far it is from a point at (4.5, 7.3), by
+/// hand.
+type Post = (&'static [(f64, f64)], f64, f64);
+
+/// No two differ in less than the name: in the radius, in the place, in the number of points, in a single point.
+const POSTS: [Post; 5] = [
+    (&[(4.5, 7.0)], 0.125, 0.175),
+    (&[(4.5, 7.0)], 0.0625, 0.2375),
+    (&[(4.5, 7.0625)], 0.0625, 0.175),
+    (&[(4.25, 7.0), (4.75, 7.0)], 0.125, 0.175),
+    (&[(4.25, 7.0), (4.75, 7.0), (4.5, 7.125)], 0.125, 0.05),
+];
+
+/// Fails unless this post stands there, as the scene, the world as it stands and the entities have it.
+#[track_caller]
+fn assert_stands(app: &mut App, post: Option<Post>, why: &str) {
+    use bevy::prelude::RelationshipTarget;
+    use motion_lab_core::collision::Collision;
+    use motion_lab_core::geometry::Footprint;
+    use motion_lab_sim::simulation::{ObstacleShape, Obstacles, Placement, Roster, StandingWorld, WorldScene};
+    let world = app.world();
+    let of_world = world.resource::<Roster>().worlds()[0];
+    let distance = world.get::<WorldScene>(of_world).unwrap().0.distance(&Footprint::disc(Point2::new(4.5, 7.3), 0.0));
+    // without a post a wall of the room is nearer than 70 cm
+    let expected = post.map_or(0.3..0.7, |(.., distance)| distance - 1e-5..distance + 1e-5);
+    assert!(expected.contains(&distance), "{why}: {distance} m");
+    let corners = |pieces: &[(Pose2, Shape)]| -> Vec<(usize, f64)> {
+        pieces.iter().map(|(at, shape)| shape.place(at)).map(|piece| (piece.core().len(), piece.radius())).collect()
+    };
+    let expected: Vec<_> = post.into_iter().map(|(points, radius, _)| vec![(points.len(), radius)]).collect();
+    let obstacles = &world.get::<StandingWorld>(of_world).unwrap().0.obstacles;
+    let named = obstacles.iter().filter(|o| o.name == "post").map(|o| corners(&o.pieces));
+    assert_eq!(named.collect::<Vec<_>>(), expected, "{why}");
+    // one that the script adds later is an entity that is not there yet
+    let is_there = |e: &bevy::prelude::Entity| world.get::<Placement>(*e).unwrap().present;
+    let entities = world.get::<Obstacles>(of_world).unwrap().iter().filter(is_there);
+    let shapes = entities.filter_map(|e| world.get::<ObstacleShape>(e)).filter(|shape| shape.name == "post");
+    let named = shapes.map(|shape| corners(&shape.pieces));
+    assert_eq!(named.collect::<Vec<_>>(), expected, "{why}: entities");
+}
+
+#[test]
+fn of_posts_of_one_name_the_one_of_the_script_stands_over_undo_and_redo() {
+    let add = |(points, radius, _): Post| WorldChange::Add {
+        name: "post".into(),
+        points: points.iter().map(|(x, y)| (quantized(*x), quantized(*y))).collect(),
+        radius: quantized(radius),
+    };
+    let command = |app: &mut App, command: TransportCommand| {
+        app.world_mut().write_message(RunCommand::from(command));
+        app.update();
+    };
+    for (i, one) in POSTS.into_iter().enumerate() {
+        for (k, other) in POSTS.into_iter().enumerate().filter(|(k, _)| *k != i) {
+            let pair = |when: &str| format!("{i} and {k}, {when}");
+            let mut app = app();
+            run_to(&mut app, 2);
+            assert_stands(&mut app, None, &pair("at first"));
+            send(&mut app, add(one));
+            run_to(&mut app, 6);
+            assert_stands(&mut app, Some(one), &pair("added"));
+            let first = frame(&app);
+            // the run is continued from before the post, with another one in its place
+            seek(app.world_mut(), 2).unwrap();
+            assert_stands(&mut app, None, &pair("before it was added"));
+            send(&mut app, add(other));
+            run_to(&mut app, 8);
+            assert_stands(&mut app, Some(other), &pair("added instead"));
+            // from script to script, without a run in between that has none
+            command(&mut app, TransportCommand::Undo);
+            seek(app.world_mut(), 6).unwrap();
+            assert_stands(&mut app, Some(one), &pair("undone"));
+            assert_eq!(frame(&app), first, "{}", pair("undone"));
+            command(&mut app, TransportCommand::Redo);
+            seek(app.world_mut(), 6).unwrap();
+            assert_stands(&mut app, Some(other), &pair("done again"));
+            command(&mut app, TransportCommand::Undo);
+            command(&mut app, TransportCommand::Undo);
+            assert_stands(&mut app, None, &pair("both undone"));
+            assert_eq!(script(&app), Script::empty());
+            run_to(&mut app, 8);
+            assert_stands(&mut app, None, &pair("both undone, and played on"));
+            assert!(frame(&app).obstacles.is_empty());
+            // its name is free again
+            send(&mut app, add(other));
+            assert_eq!(refused(&mut app), [""; 0]);
+            run_to(&mut app, 10);
+            assert_stands(&mut app, Some(other), &pair("added anew"));
+        }
+    }
+}

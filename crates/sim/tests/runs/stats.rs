@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use motion_lab_core::configuration::Kinds;
-use motion_lab_core::num::sin;
+use motion_lab_core::num::{cos, hypot, sin};
+use motion_lab_core::picture::Drawing;
 use motion_lab_core::prelude::*;
 use motion_lab_core::worlds::{Door, World};
+use motion_lab_sim::capture::{RunPlot, plot};
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{
     Event, Log, Quantity, RobotInput, RobotStats, RunStats, Script, Series, SeriesGatherer, WorldChange, WorldEvent,
@@ -190,4 +192,81 @@ fn what_is_not_known_of_a_robot_is_not_made_up() {
     let kinds = Kinds::default().with_footprint("x-own", |q| Some(Footprint::disc(Point2::new(q[0], q[1]), 0.4)));
     let known = RunStats::of_kinds(&log, &kinds).robots.remove(0);
     assert!(known.path_length.is_some() && known.least_clearance.unwrap().metres < HALF - 0.4 + 1e-9);
+}
+
+/// What a line of a plot shows, seconds and values, read off the figure by the marks of its axes.
+fn read_off(series: &[Series], quantity: Quantity, ticks: u64, width: f64, line: &str) -> Vec<[f64; 2]> {
+    let run = RunPlot { quantity, series, ticks, seed: Seed(7), digest: String::new() };
+    let figure = plot(&run, width).figure;
+    let items = &figure.panels[0].picture.items;
+    // the first and the last mark of an axis, each the figure beside it and its place
+    let marks = |axis: &str, of: fn(&Point2) -> f64| -> [[f64; 2]; 2] {
+        let marks = items.iter().filter_map(|item| {
+            let text = item.id.strip_prefix(axis)?.replace('\u{2212}', "-");
+            let Drawing::Polyline(ends) = &item.drawing else { panic!("{}", item.id) };
+            Some([text.parse().unwrap(), of(&ends[0])])
+        });
+        let marks: Vec<[f64; 2]> = marks.collect();
+        [marks[0], marks[marks.len() - 1]]
+    };
+    let (across, up) = (marks("tick/", |p| p.x), marks("grid/", |p| p.y));
+    let value = |at: f64, [a, b]: [[f64; 2]; 2]| a[0] + (at - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+    let drawn = items.iter().find(|item| item.id == format!("line/{line}")).unwrap();
+    let Drawing::Region { outline, .. } = &drawn.drawing else { panic!("lines") };
+    // within the frame: down its left side, along its foot
+    let Drawing::Polyline(frame) = &items.iter().find(|item| item.id == "axes").unwrap().drawing else { panic!() };
+    let is_inside = |p: &Point2| (frame[1].x..=frame[2].x).contains(&p.x) && (frame[1].y..=frame[0].y).contains(&p.y);
+    assert!(outline.iter().flatten().all(is_inside), "{line} leaves its frame");
+    outline.iter().flatten().map(|p| [value(p.x, across), value(p.y, up)]).collect()
+}
+
+/// Fails unless the two lists are the same, and if they are short.
+#[track_caller]
+fn assert_line(found: &[[f64; 2]], expected: &[[f64; 2]]) {
+    assert!(found.len() == expected.len() && found.len() > 40, "{} and {}", found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        assert!((0..2).all(|i| (found[i] - expected[i]).abs() < 1e-6), "{found:?}, not {expected:?}");
+    }
+}
+
+#[test]
+fn a_plot_shows_a_drive_back_and_forth_with_its_signs() {
+    // by the channels: 1.5 m/s at 128, whichever way the wheels stand
+    let legs: [(u64, i16, i16); 6] =
+        [(1, 128, 0), (11, -64, 0), (21, 32, -128), (31, -128, 128), (46, 0, 0), (51, -16, 64)];
+    let events = legs.iter().map(|(tick, v, phi)| drive(*tick, *v, *phi)).collect();
+    let log = log_of(square("hitch", &[0.0; 3]), 60, script(events));
+    let speed = |tick: u64| f64::from(legs.iter().rfind(|leg| leg.0 <= tick).unwrap().1) / 128.0 * 1.5;
+    let expected: Vec<[f64; 2]> = (1..=60).map(|tick| [0.05 * tick as f64, speed(tick)]).collect();
+    let speeds = series(&log, Quantity::Speed);
+    assert_line(&read_off(&speeds, Quantity::Speed, 60, 900.0, "it"), &expected);
+
+    // a rover straight ahead, back over its start, and ahead: its place is the distance that it has driven
+    let rover = vec![drive(1, 128, 0), drive(16, -128, 0), drive(51, 100, 0)];
+    let log = log_of(square("rusty", &[0.0; 3]), 70, script(rover));
+    let both = series(&log, Quantity::Encoders);
+    let place = |tick: usize| match tick {
+        0 => 0.0,
+        _ => {
+            let ends = |tick: usize| if tick == 0 { log.initial().unwrap() } else { &log.frames()[tick - 1] };
+            (1..=tick).fold(0.0, |gone, tick| {
+                let [a, b] = [tick - 1, tick].map(|tick| &ends(tick).robots[0].configuration);
+                // by the chord of the arc and its turn, which slip makes
+                let (dx, dy, half) = (b[0] - a[0], b[1] - a[1], 0.5 * (b[2] - a[2]));
+                let ahead = dx * cos(a[2]) + dy * sin(a[2]);
+                gone + hypot(dx, dy) * ahead.signum() * if half == 0.0 { 1.0 } else { half / sin(half) }
+            })
+        }
+    };
+    let expected: Vec<[f64; 2]> = (0..=70).map(|tick| [0.05 * tick as f64, place(tick)]).collect();
+    assert!(expected[15][1] > 0.4 && expected[50][1] < -0.5 && expected[70][1] > expected[50][1] + 0.4);
+    assert_line(&read_off(&both, Quantity::Encoders, 70, 900.0, "it true"), &expected);
+    // the encoders count whole steps of the wheels
+    let step = std::f64::consts::TAU * 0.033 / 360.0;
+    for [time, metres] in read_off(&both, Quantity::Encoders, 70, 900.0, "it encoders") {
+        let tick = (time / 0.05).round() as i32;
+        let rolled = 0.03 * f64::from(tick.min(15) - (tick - 15).clamp(0, 35))
+            + 0.03 * 100.0 / 128.0 * f64::from((tick - 50).clamp(0, 20));
+        assert!((metres - rolled).abs() < step + 1e-6, "{time} s: {metres}, not {rolled}");
+    }
 }

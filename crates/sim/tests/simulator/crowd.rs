@@ -192,3 +192,84 @@ fn a_sensor_sees_the_others_and_not_its_own_robot() {
     assert!(near(&a.ranges, [nothing, 1.0 - RUSTY.body_radius, nothing, nothing]), "{:?}", a.ranges);
     assert!(near(&b.ranges, [nothing, 1.0, nothing, 1.0 - RUSTY.body_radius]), "{:?}", b.ranges);
 }
+
+/// An arm that turns by 0.1 rad in a tick, beside it a rover, in this order of their ids. Returns whether the arm and
+/// the rover are in contact after the tick, the arm's shoulder, and how far the rover has gone.
+fn arm_and_rover(arm_first: bool, turn: f64, rover: [f64; 3], channels: [i16; 2]) -> (bool, bool, f64, f64) {
+    let (arm, rover_of): ((_, _, &[f64]), (_, _, &[f64])) = (("arm", "reach", &[0.0, 0.0]), ("rover", "rusty", &rover));
+    let world = arena(4.0, &if arm_first { [arm, rover_of] } else { [rover_of, arm] });
+    let events = vec![
+        event(1, "arm", RobotInput::MoveTo(quantized(&[turn, 0.0]))),
+        event(1, "rover", RobotInput::Drive(channels[0], channels[1])),
+    ];
+    let log = Run::record(config(world, 1), (Seed(1), script(events))).unwrap();
+    let [a, r] = if arm_first { [0, 1] } else { [1, 0] };
+    let (robots, from) = (&log.frames()[0].robots, Point2::new(rover[0], rover[1]));
+    (
+        robots[a].in_contact,
+        robots[r].in_contact,
+        robots[a].configuration[0],
+        (pose(&log.frames()[0], r).position() - from).norm(),
+    )
+}
+
+/// The arm is 2 m long and 3 cm thick, the rover's radius is 11 cm, and it drives 3 cm a tick. At 1.9 m from the
+/// shoulder the arm sweeps up to 19 cm.
+#[test]
+fn of_an_arm_and_a_rover_that_meet_the_one_with_the_higher_id_is_in_contact() {
+    let down = -std::f64::consts::FRAC_PI_2;
+    // down into what the arm sweeps; neither meets the other where that stood: 1.4 cm are left to the arm, 2.9 cm to
+    // the rover
+    for (arm_first, in_contact) in [(true, [false, true]), (false, [true, false])] {
+        let (arm, rover, shoulder, gone) = arm_and_rover(arm_first, 0.1, [1.9, 0.345, down], [128, 0]);
+        assert_eq!([arm, rover], in_contact, "arm first: {arm_first}");
+        assert!((shoulder - 0.1).abs() < 1e-6, "an arm is never held");
+        if rover { assert_eq!(gone, 0.0, "it stays") } else { assert!((gone - 0.03).abs() < 0.005, "{gone} m") }
+    }
+    // over a rover that stands: the arm is in contact whatever the ids; the rover if it is the later one
+    for (arm_first, in_contact) in [(true, [true, true]), (false, [true, false])] {
+        let (arm, rover, shoulder, gone) = arm_and_rover(arm_first, 0.1, [1.9, 0.2, down], [0, 0]);
+        assert_eq!(([arm, rover], gone), (in_contact, 0.0), "arm first: {arm_first}");
+        assert!((shoulder - 0.1).abs() < 1e-6);
+    }
+    // into an arm that stands: the rover is held at it whatever the ids, and the arm has no part in it
+    for arm_first in [true, false] {
+        let (arm, rover, shoulder, gone) = arm_and_rover(arm_first, 0.0, [1.9, 0.16, down], [128, 0]);
+        assert_eq!(([arm, rover], shoulder), ([false, true], 0.0), "arm first: {arm_first}");
+        assert!((0.0199..0.02).contains(&gone), "{gone} m of 2 cm");
+    }
+    // away from one another, and past one another at a centimetre
+    for arm_first in [true, false] {
+        for (y, channels) in [(0.345, [-128, 0]), (0.385, [128, 0])] {
+            let (arm, rover, _, gone) = arm_and_rover(arm_first, 0.1, [1.9, y, down], channels);
+            assert!(!arm && !rover && gone > 0.025, "{y} {channels:?}, arm first: {arm_first}");
+        }
+    }
+}
+
+/// Two arms by one another, both 1 m long in two links, and both free to go on.
+#[test]
+fn of_two_arms_that_meet_the_one_with_the_higher_id_is_in_contact_and_both_go_on() {
+    use motion_lab_core::configuration::{ArmSizes, Sizes};
+    let sizes = |x: f64| Sizes::Arm(ArmSizes { base: Point2::new(x, 0.0), lengths: vec![0.5, 0.5], radius: 0.03 });
+    let resident = |name: &str, x: f64| Resident { sizes: Some(sizes(x)), ..Resident::new(name, "reach", [1.5, 0.0]) };
+    // they stand side by side with 14 cm between them; a forearm that leans by 0.2 rad takes 10 cm, by 0.5 rad 24 cm
+    for (order, leans, expected) in [
+        (["left", "right"], [-0.2, 0.2], [false, true]),
+        (["right", "left"], [-0.2, 0.2], [true, false]),
+        (["left", "right"], [0.2, -0.2], [false, false]),
+        (["left", "right"], [0.0, 0.5], [false, true]),
+        (["right", "left"], [0.0, 0.5], [true, true]),
+    ] {
+        let mut world = arena(4.0, &[]);
+        world.robots = order.iter().map(|name| resident(name, if *name == "left" { 0.0 } else { 0.2 })).collect();
+        let lean = |name, by: f64| event(1, name, RobotInput::MoveTo(quantized(&[1.5, by])));
+        let events = vec![lean("left", leans[0]), lean("right", leans[1])];
+        let log = Run::record(config(world, 1), (Seed(1), script(events))).unwrap();
+        let of = |name: &str| &log.frames()[0].robots[order.iter().position(|other| *other == name).unwrap()];
+        assert_eq!(["left", "right"].map(|name| of(name).in_contact), expected, "{order:?} {leans:?}");
+        for (name, by) in ["left", "right"].into_iter().zip(leans) {
+            assert!((of(name).configuration[1] - by).abs() < 1e-6, "{name} goes where its input says");
+        }
+    }
+}

@@ -1,7 +1,9 @@
 //! Refused inputs: which are refused wherever a robot is, why the others are, and that logs with them still replay.
 
 use motion_lab_core::configuration::{InputKind, RobotKind};
+use motion_lab_core::num::sin_cos;
 use motion_lab_core::prelude::*;
+use motion_lab_core::worlds::{Door, Obstacle, ObstacleKind};
 use motion_lab_sim::recording::{Recorder, Run, verify};
 use motion_lab_sim::run::{Event, RobotInput, Script, ScriptProblem, WorldChange, WorldEvent};
 use motion_lab_sim::simulation::{InputRefusal, RefusedEvent};
@@ -168,5 +170,141 @@ fn a_teleport_outside_the_world_is_refused_when_it_is_read_and_when_it_is_applie
         let run = recorded(&config, vec![put(robot, to)]);
         let applied = said.map(|said| format!("tick 2: robot {robot:?} refused Teleport: {said}"));
         assert_eq!(run.refusals().first().map(ToString::to_string), applied, "{robot} {to:?}");
+    }
+}
+
+/// The middle of each part of a robot at a configuration, by the kinematics written out.
+fn middles(kind: &str, q: &[f64]) -> Vec<Point2> {
+    let along = |from: Point2, heading: f64, length: f64| {
+        let (s, c) = sin_cos(heading);
+        Point2::new(from.x + length * c, from.y + length * s)
+    };
+    let lengths: &[f64] = match kind {
+        "reach" => &[1.0, 1.0],
+        "reach3" => &[0.6, 0.5, 0.4],
+        // the chassis is 0.7 m behind the rear axle to 3.2 m ahead of it, the trailer 1 m to 2.8 m behind
+        _ => {
+            let (at, ends) =
+                (Point2::new(q[0], q[1]), [(q[2], 1.25)].into_iter().chain(q.get(3).map(|psi| (*psi, -1.9))));
+            return ends.map(|(heading, length)| along(at, heading, length)).collect();
+        }
+    };
+    let (mut at, mut heading, mut all) = (Point2::new(0.0, 0.0), 0.0, Vec::new());
+    for (length, turn) in lengths.iter().zip(q) {
+        heading += turn;
+        all.push(along(at, heading, 0.5 * length));
+        at = along(at, heading, *length);
+    }
+    all
+}
+
+/// Robots of several parts, each away from the walls and folded, so that a hair about a part's middle is that part's
+/// alone.
+const FOLDED: [(&str, &[f64]); 4] = [
+    ("reach", &[0.5, 1.9]),
+    ("reach3", &[0.5, 1.2, -1.4]),
+    ("hitch", &[3.0, -4.0, 0.5]),
+    ("hitch", &[3.0, -4.0, 0.5, 1.2]),
+];
+
+#[test]
+fn an_obstacle_is_refused_where_any_part_of_any_robot_stands() {
+    let q = |x: f64| quantized(&[x])[0];
+    let disc = |at: Point2| (vec![(q(at.x), q(at.y))], q(0.01));
+    let in_tick = |tick, change| WorldEvent { tick, world: "the arena".into(), change };
+    let mut parts = 0;
+    for (kind, start) in FOLDED {
+        for (part, at) in middles(kind, start).into_iter().enumerate() {
+            // beside a rover far away, with a higher id and with a lower one
+            for rover_first in [false, true] {
+                let far: (&str, &str, &[f64]) = ("far", "rusty", &[-9.0, 9.0, 0.0]);
+                let it: (&str, &str, &[f64]) = ("it", kind, start);
+                let mut world = arena(10.0, &if rover_first { [far, it] } else { [it, far] });
+                let door = |name: &str, at: Point2| Door {
+                    name: name.into(),
+                    a: Point2::new(at.x - 0.01, at.y),
+                    b: Point2::new(at.x + 0.01, at.y),
+                    open: true,
+                };
+                world.doors = vec![door("the door", at), door("the other door", Point2::new(-5.0, 5.0))];
+                let config = TourConfig { worlds: vec![world], ticks: 3, sensor: None };
+                let ((points, radius), (there, _)) = (disc(at), disc(Point2::new(-5.0, 5.0)));
+                let add = |name: &str, points| WorldChange::Add { name: name.into(), points, radius };
+                let to = (q(at.x + 5.0), q(at.y - 5.0), q(0.0));
+                let changes = vec![
+                    in_tick(1, add("onto it", points)),
+                    in_tick(1, add("beside it", there)),
+                    in_tick(1, WorldChange::Close("the door".into())),
+                    in_tick(1, WorldChange::Close("the other door".into())),
+                    in_tick(2, WorldChange::Move { name: "beside it".into(), to }),
+                ];
+                let still: Vec<Event> = match kind {
+                    "hitch" => vec![event(1, "it", RobotInput::Drive(0, 0))],
+                    _ => vec![event(1, "it", RobotInput::MoveTo(quantized(start)))],
+                };
+                let mut run = Recorder::new(config, (Seed(4), Script::new(still, changes))).unwrap();
+                run.seek(3).unwrap();
+                assert_eq!(run.refusals().count(), 3, "{kind}, part {part}: {:?}", run.refusals().first());
+                let first = run.refusals().first().unwrap().to_string();
+                let said = "tick 1: \"onto it\" in world \"the arena\" stays as it is: robot \"it\" stands there";
+                assert_eq!(first, said, "{kind}, part {part}");
+                let states = &run.frame().obstacles;
+                assert_eq!(states.len(), 2, "the disc and the door beside it are there: {states:?}");
+                assert!(states.iter().all(|state| state.present && state.pose == Pose2::IDENTITY));
+                parts += 1;
+            }
+        }
+    }
+    assert_eq!(parts, 2 * (2 + 3 + 1 + 2));
+}
+
+/// The arena's wall has four sides; moved by 8 m along an axis, one of them comes to lie on the rover.
+#[test]
+fn an_obstacle_of_many_pieces_is_refused_whichever_of_them_meets_a_robot() {
+    let q = |x: f64| quantized(&[x])[0];
+    for (x, y) in [(8.0, 0.0), (-8.0, 0.0), (0.0, 8.0), (0.0, -8.0)] {
+        let config = one("rusty", &[-0.25 * x, -0.25 * y, 0.0]);
+        for (by, count) in [(1.0, 1), (0.5, 0)] {
+            let to = (q(by * x), q(by * y), q(0.0));
+            let change = WorldChange::Move { name: "the wall".into(), to };
+            let change = WorldEvent { tick: 1, world: "the arena".into(), change };
+            let still = vec![event(1, "it", RobotInput::Drive(0, 0))];
+            let mut run = Recorder::new(config.clone(), (Seed(4), Script::new(still, vec![change]))).unwrap();
+            run.seek(2).unwrap();
+            assert_eq!(run.refusals().count(), count, "moved by ({x}, {y}), {by}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_is_put_nowhere_where_any_part_of_it_would_touch() {
+    let (mut put, mut refused) = (0, 0);
+    for (kind, to) in FOLDED {
+        for (part, at) in middles(kind, to).into_iter().enumerate() {
+            for aside in [0.0, 3.0] {
+                let start: &[f64] = if kind == "hitch" { &[-5.0, 5.0, 0.0] } else { &[-2.5, 0.1, 0.1] };
+                let mut config = one(kind, &start[..if kind == "reach" { 2 } else { 3 }]);
+                let pillar = vec![(Pose2::new(at.x + aside, at.y - aside, 0.0), Shape::Disc { radius: 0.01 })];
+                config.worlds[0].obstacles.push(Obstacle::new("the pillar", ObstacleKind::Solid, pillar));
+                // a car without a trailer gets one where it stands, and is then put with it
+                let mut events = vec![event(1, "it", RobotInput::Teleport(quantized(to)))];
+                if to.len() == 4 {
+                    events.insert(0, event(1, "it", RobotInput::SetTrailer(true)));
+                }
+                let run = recorded(&config, events);
+                assert_eq!(run.refusals().count(), u64::from(aside == 0.0), "{kind}, part {part}");
+                if aside == 0.0 { refused += 1 } else { put += 1 }
+            }
+        }
+    }
+    assert_eq!((put, refused), (8, 8));
+    // a trailer comes to stand straight behind its car, from 1 m to 2.8 m
+    for (behind, count) in [(-0.9, 0), (-1.1, 1), (-1.9, 1), (-2.7, 1), (-2.9, 0)] {
+        let mut config = one("hitch", &[0.0; 3]);
+        let pillar = vec![(Pose2::new(behind, 0.7, 0.0), Shape::Disc { radius: 0.01 })];
+        config.worlds[0].obstacles.push(Obstacle::new("the pillar", ObstacleKind::Solid, pillar));
+        let run = recorded(&config, vec![event(2, "it", RobotInput::SetTrailer(true))]);
+        assert_eq!(run.refusals().count(), count, "a pillar {behind} m behind");
+        assert_eq!(run.frame().robots[0].configuration.len(), if count == 0 { 4 } else { 3 });
     }
 }

@@ -121,3 +121,49 @@ fn channels(rover: &Rusty, line: &StraightPiece, q: &Pose2) -> Option<[i16; 2]> 
     let speed = channel(lesser(PART * remaining / DT, rover.max_speed), rover.max_speed);
     Some([speed, omega])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_lab_core::num::{cos, sin};
+    use motion_lab_core::random::{Seed, Stream};
+    use motion_lab_core::robots::{Drivable, RustyCmd};
+
+    /// How far a point is from a line between two points, by the nearest of ten thousand of its places.
+    fn by_places(from: Point2, to: Point2, p: Point2) -> f64 {
+        let place = |k: u32| from + (to - from) * (f64::from(k) / 1e4);
+        (0..=10_000).fold(f64::INFINITY, |least, k| lesser(hypot(place(k).x - p.x, place(k).y - p.y), least))
+    }
+
+    /// A tick's arc by its circle, against a line that it begins and ends anywhere beside, ahead of and beyond.
+    #[test]
+    fn an_arc_strays_as_far_as_its_farthest_place_between_its_ends_too() {
+        let (from, to) = (Point2::new(-1.0, 0.5), Point2::new(2.0, 1.5));
+        let line = StraightPiece::new(from, to).unwrap();
+        let mut draws = Stream::new(Seed(8), "arcs");
+        let (mut between, mut beyond) = (0, 0);
+        for _ in 0..60 {
+            let start = Pose2::new(draws.uniform(-2.0, 3.0), draws.uniform(0.0, 2.0), draws.uniform(-3.0, 3.0));
+            let (v, omega) = (draws.uniform(-1.0, 1.0), draws.uniform(0.1, 1.0));
+            let arc = RUSTY.drive(&start, &RustyCmd { v, omega }, 1.0).unwrap();
+            let radius = v / omega;
+            let middle = Point2::new(start.x - radius * sin(start.theta), start.y + radius * cos(start.theta));
+            let at = |u: f64| {
+                let heading = start.theta + omega * u;
+                Point2::new(middle.x + radius * sin(heading), middle.y - radius * cos(heading))
+            };
+            let off = |u: f64| by_places(from, to, at(u));
+            let ends = greater(off(0.0), off(1.0));
+            let farthest = (0..=20).fold(0.0, |most, k| greater(off(f64::from(k) / 20.0), most));
+            let found = strays(&line, &arc);
+            assert!(farthest <= found + 1e-7, "{farthest} m at {start:?}, {v} {omega}, not {found} m");
+            // the height of the arc over its chord, and the little that a parabola is higher
+            let height = radius.abs() * (1.0 - cos(0.5 * omega)) * (1.0 + omega * omega / 40.0);
+            assert!(found <= ends + height + 1e-7, "{found} m is more than {ends} m and {height} m");
+            between += u32::from(farthest > ends + 1e-3);
+            let (ahead, _) = line.seen(at(if off(0.0) > off(1.0) { 0.0 } else { 1.0 }));
+            beyond += u32::from(!(0.0..=line.length).contains(&ahead));
+        }
+        assert!(between > 2 && beyond > 5, "{between} are farthest between their ends, {beyond} beyond the line");
+    }
+}

@@ -7,15 +7,15 @@ use crate::run::{Frame, RobotInput, Script};
 use crate::simulation::tick::refusals::Refusals;
 use crate::simulation::{LatestFrame, SimulationPlugin, start_run, step};
 use crate::tour::TourConfig;
-use motion_lab_core::collision::{Checker, Problem, Scene};
+use motion_lab_core::collision::{Checker, Collision, Problem, Scene};
 use motion_lab_core::configuration::{HitchCfg, R2, T2};
-use motion_lab_core::geometry::{Point2, Pose2};
-use motion_lab_core::num::{greater, hypot, lesser, wrap};
+use motion_lab_core::geometry::{Footprint, Point2, Pose2};
+use motion_lab_core::num::{cos, greater, hypot, lesser, sin, sin_cos, wrap};
 use motion_lab_core::planning::curves::reeds_shepp;
 use motion_lab_core::planning::hybrid::HybridAStar;
 use motion_lab_core::planning::{Bounds, CertifiedPath, LinePath, RrtConnect, solve};
 use motion_lab_core::random::Seed;
-use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, HITCH, Reach, RustyDisc};
+use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, HITCH, Motion, Reach, Robot, RustyDisc};
 use motion_lab_core::worlds::{Resident, World};
 
 /// The frames of a run, from tick 0 on. No input is refused.
@@ -201,4 +201,177 @@ fn a_path_of_any_robot_is_played_as_the_robot_s_own() {
     let reach = Checker::new(Scene::workbench(), Reach::<2>::workbench());
     let own = LinePath::through(&reach, &[T2::new(-0.5, 0.3), T2::new(-0.2, -0.4)]).unwrap();
     assert_eq!(Script::of_path(&any, &stage).unwrap(), Script::of_path(&own, &stage).unwrap());
+}
+
+/// The path of an arm on the Workbench, of a car in the Lot and of a rover in the Apartment, each played in a tube.
+fn played_in(tube: f64) -> [Result<PlayedPath, PlayError>; 3] {
+    let (bench, lot, flat) = (World::workbench(), World::lot(), World::apartment());
+    let arm = Checker::new(Scene::workbench(), Reach::<2>::workbench());
+    let arm = LinePath::through(&arm, &[T2::new(-0.5, 0.3), T2::new(-0.2, -0.4), T2::new(0.1, -0.3)]).unwrap();
+    let start = HitchCfg { body: Pose2::new(6.5, 2.5, 0.0), trailer: None };
+    let curve = reeds_shepp(&start.body, &Pose2::new(5.0, 2.9, 0.3), HITCH.tightest()).unwrap();
+    let car = curve.certified(&Checker::new(Scene::lot(), HITCH), &start).unwrap();
+    let corners = [(2.25, 6.25), (2.9375, 5.375), (2.9375, 4.0)].map(|(x, y)| R2::new(x, y));
+    let rover = LinePath::through(&Checker::new(Scene::apartment(), RustyDisc::default()), &corners).unwrap();
+    let stage = |world, robot| PlayStage { tube, ..PlayStage::new(world, robot, Seed(4)) };
+    [
+        Script::of_path(&arm, &stage(&bench, "Reach")),
+        Script::of_path(&car, &stage(&lot, "Hitch")),
+        Script::of_path(&rover, &stage(&flat, "Rusty")),
+    ]
+}
+
+#[test]
+fn a_tube_as_wide_as_a_robot_strays_is_wide_enough_and_one_narrower_by_a_bit_is_not() {
+    let wide = played_in(0.05);
+    for (number, played) in wide.into_iter().enumerate() {
+        let played = played.unwrap();
+        let (strayed, narrower) = (played.strayed, played.strayed.next_down());
+        assert!(strayed > 0.0, "{number}");
+        assert_eq!(played_in(strayed)[number].as_ref(), Ok(&played), "{number}");
+        let refused = played_in(narrower)[number].clone().unwrap_err();
+        let PlayError::LeavesTube { tick, strayed: there, tube } = refused else { panic!("{number}: {refused}") };
+        assert_eq!(
+            (there, tube),
+            (strayed, narrower),
+            "{number}: the first tick beyond it is the one that is farthest"
+        );
+        assert!((1..=played.ticks).contains(&tick), "{number}");
+    }
+}
+
+/// How far the elbow and the tip of the arm are from their places at other angles, at most, metres, and what no point
+/// of its links, 3 cm thick, can exceed.
+fn arm_off(q: [f64; 2], planned: [f64; 2]) -> [f64; 2] {
+    let place = |[a, b]: [f64; 2]| {
+        let elbow = [cos(a), sin(a)];
+        [elbow, [elbow[0] + cos(a + b), elbow[1] + sin(a + b)]]
+    };
+    let apart = |(p, q): ([f64; 2], [f64; 2])| hypot(p[0] - q[0], p[1] - q[1]);
+    let off = place(q).into_iter().zip(place(planned)).map(apart).fold(0.0, greater);
+    let [a, b] = [0, 1].map(|i| (q[i] - planned[i]).abs());
+    [off, 2.03 * a + 1.03 * b]
+}
+
+/// The tick's motion and the path's line side by side, both at constant rates of the joints.
+#[test]
+fn an_arm_is_as_near_to_its_path_between_ticks_as_is_said() {
+    let played = played_in(0.05)[0].clone().unwrap();
+    let frames = run(&World::workbench(), Seed(4), &played, 0);
+    let rounded = |q: [f64; 2]| q.map(|x| (x * 1048576.0).round() / 1048576.0);
+    let corners = [[-0.5, 0.3], [-0.2, -0.4], [0.1, -0.3]];
+    let (mut before, mut tick, mut farthest, mut most) = (rounded(corners[0]), 0, 0.0, 0.0);
+    let mut look = |q, planned| {
+        let [off, bound] = arm_off(q, planned);
+        (farthest, most) = (greater(off, farthest), greater(bound, most));
+        bound
+    };
+    look(before, corners[0]);
+    for ends in corners.windows(2) {
+        let turns = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+        let ticks = (greater(turns[0].abs(), turns[1].abs()) / 0.1).ceil();
+        let planned = |k: f64| [0, 1].map(|i| ends[0][i] + turns[i] * k / ticks);
+        for k in 0..ticks as usize {
+            tick += 1;
+            let now = &frames[tick].robots[0].configuration;
+            assert!((0..2).all(|i| now[i] == rounded(planned(k as f64 + 1.0))[i]), "tick {tick}");
+            for u in 0..=16 {
+                let u = f64::from(u) / 16.0;
+                look([0, 1].map(|i| before[i] + (now[i] - before[i]) * u), planned(k as f64 + u));
+            }
+            before = [now[0], now[1]];
+        }
+    }
+    assert_eq!(played.ticks as usize, tick);
+    assert!(farthest <= played.strayed && played.strayed <= most + 1e-12, "{farthest} {played:?} {most}");
+    let [missed, bound] = arm_off(before, corners[2]);
+    assert!(missed <= played.missed && played.missed <= bound + 1e-12, "{missed} {played:?} {bound}");
+}
+
+/// The tick's arc and the stretch of the path's arc that is as long, side by side, by all corners of the car.
+#[test]
+fn a_car_is_as_near_to_its_path_between_ticks_as_is_said() {
+    let checker = Checker::new(Scene::lot(), HITCH);
+    let start = HitchCfg { body: Pose2::new(6.5, 2.5, 0.0), trailer: None };
+    let curve = reeds_shepp(&start.body, &Pose2::new(5.0, 2.9, 0.3), HITCH.tightest()).unwrap();
+    let path = curve.certified(&checker, &start).unwrap();
+    let played = played_in(0.05)[1].clone().unwrap();
+    let frames = run(&World::lot(), Seed(4), &played, 0);
+    let apart = |a: &HitchCfg, b: &HitchCfg| {
+        let [a, b] = [a, b].map(|q| HITCH.footprint(q));
+        let pairs = a.parts()[0].placed().core().iter().zip(b.parts()[0].placed().core());
+        pairs.map(|(p, q)| hypot(p.x - q.x, p.y - q.y)).fold(0.0, greater)
+    };
+    let (mut tick, mut farthest, mut nearest, mut channels) = (0, 0.0, f64::INFINITY, [0; 2]);
+    for leg in path.legs() {
+        // 0.075 m a tick at full speed, and the rest in a last tick at the nearest of 128 speeds
+        let (arc, mut before, mut driven) = (leg.motion(), 0.0, 0.0);
+        let length = (arc.control().v * arc.seconds()).abs();
+        let rest = ((length / 0.075).fract() * 128.0).round() / 128.0;
+        let ticks = (length / 0.075).floor() as usize;
+        for k in 0..ticks + usize::from(rest > 0.0) {
+            tick += 1;
+            driven += if k < ticks { 0.075 } else { 0.075 * rest };
+            if let Some(event) = played.script.events.iter().find(|event| event.tick == tick)
+                && let RobotInput::Drive(speed, steering) = event.input
+            {
+                channels = [speed, steering];
+            }
+            let control = CarCmd {
+                v: f64::from(channels[0]) / 128.0 * HITCH.max_speed,
+                phi: f64::from(channels[1]) / 128.0 * HITCH.max_steer,
+            };
+            let from = &frames[tick as usize - 1].robots[0].configuration;
+            let from = HitchCfg { body: Pose2::new(from[0], from[1], from[2]), trailer: None };
+            let motion = HITCH.drive(&from, &control, 0.05).unwrap();
+            let s = lesser(driven / length, 1.0);
+            for u in 0..=16 {
+                let u = f64::from(u) / 16.0;
+                let q = motion.at(u);
+                farthest = greater(apart(&q, &arc.at(before + u * (s - before))), farthest);
+                nearest = lesser(checker.distance(&q), nearest);
+            }
+            before = s;
+        }
+    }
+    assert_eq!(played.ticks, tick);
+    // a tick turns the car by 0.01 rad and bends its corners' ways by less than a millimetre
+    assert!(farthest <= played.strayed && played.strayed <= farthest + 2e-3, "{farthest} {played:?}");
+    assert!(played.clearance <= nearest && nearest <= played.clearance + 1e-2, "{nearest} {played:?}");
+    let missed = apart(&motion_end(&frames), &path.goal());
+    assert!(missed <= played.missed + 1e-12 && played.missed <= missed * 2.0, "{missed} {played:?}");
+}
+
+/// Where a car without a trailer stands at the last frame.
+fn motion_end(frames: &[Frame]) -> HitchCfg {
+    let end = last(frames);
+    HitchCfg { body: Pose2::new(end[0], end[1], end[2]), trailer: None }
+}
+
+/// Each tick's arc by its chord and its turn, and the chain of the path's lines.
+#[test]
+fn a_rover_is_as_near_to_its_path_between_ticks_as_is_said() {
+    let played = played_in(0.05)[2].clone().unwrap();
+    let frames = run(&World::apartment(), Seed(4), &played, 0);
+    let corners = [(2.25, 6.25), (2.9375, 5.375), (2.9375, 4.0)].map(|(x, y)| Point2::new(x, y));
+    let (scene, mut farthest, mut nearest) = (Scene::apartment(), 0.0, f64::INFINITY);
+    for ends in frames.windows(2) {
+        let [a, b] = [0, 1].map(|k| &ends[k].robots[0].configuration);
+        let (chord, turn) = (Point2::new(b[0] - a[0], b[1] - a[1]), wrap(b[2] - a[2]));
+        for u in 0..=32 {
+            let u = f64::from(u) / 32.0;
+            // the chord of a part of the arc, in the direction that it has half way
+            let part = if turn == 0.0 { u } else { sin(0.5 * u * turn) / sin(0.5 * turn) };
+            let (s, c) = sin_cos(0.5 * (u - 1.0) * turn);
+            let p = Point2::new(a[0] + part * (c * chord.x - s * chord.y), a[1] + part * (s * chord.x + c * chord.y));
+            if ends[0].tick > 0 {
+                farthest = greater(beside(p, &corners), farthest);
+                nearest = lesser(scene.distance(&Footprint::disc(p, 0.11)), nearest);
+            }
+        }
+    }
+    assert!(farthest <= played.strayed && played.strayed <= farthest + 1e-3, "{farthest} {played:?}");
+    assert!(played.clearance <= nearest + 1e-12 && nearest <= played.clearance + 1e-2, "{nearest} {played:?}");
+    let end = last(&frames);
+    assert!((played.missed - hypot(end[0] - 2.9375, end[1] - 4.0)).abs() < 1e-12, "{played:?}");
 }
