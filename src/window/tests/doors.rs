@@ -1,5 +1,6 @@
 //! Doors on the dashboard, and robots put into the run from the atlas.
 
+use super::safe::{read_whole, words};
 use super::*;
 use motion_lab_sim::run::{RobotInput, WorldChange, WorldEvent};
 
@@ -142,4 +143,27 @@ fn each_door_bears_its_letter() {
         let ink = words.iter().find(|(text, ..)| text == letter).expect(letter).1;
         assert!(ink.center().distance(in_the_apartment(&harness, [middle.x, middle.y])) < 4.0, "{letter} at {ink}");
     }
+}
+
+#[test]
+fn on_a_wide_screen_a_notice_covers_no_door_and_no_word_of_robots_on_wheels() {
+    let mut under = Vec::new();
+    for world in [0, 2] {
+        let mut harness = lab(WIDE);
+        pause(&mut harness);
+        harness.state_mut().app.world_mut().resource_mut::<Interface>().0.settings.world = world;
+        harness.run_steps(3);
+        let before: Vec<String> = words(&harness).into_iter().map(|(text, ..)| text).collect();
+        // as long as what a link says of another run
+        let text = format!("this run differs from the link's: digest {0}, expected {0}", "0".repeat(32));
+        let said = crate::window::ui::Notice { text, is_error: true };
+        harness.state_mut().app.world_mut().resource_mut::<Interface>().0.say(said);
+        harness.run_steps(3);
+        let shown = words(&harness);
+        let lines = ["this run differs", "Dismiss"].map(|text| read_whole(&harness, text));
+        let plate = lines[0].union(lines[1]).expand(8.0);
+        let covered = shown.into_iter().filter(|(text, ink, _)| before.contains(text) && plate.intersects(*ink));
+        under.extend(covered.map(|(text, ..)| (world, text)));
+    }
+    assert_eq!(under, []);
 }

@@ -155,26 +155,6 @@ fn a_notice_moves_nothing_and_stays_with_its_widget() {
 }
 
 #[test]
-fn on_a_wide_screen_a_notice_covers_no_door_and_no_word_of_robots_on_wheels() {
-    let mut under = Vec::new();
-    for world in [0, 2] {
-        let mut harness = lab(WIDE);
-        pause(&mut harness);
-        ui(&mut harness, |ui| ui.settings.world = world);
-        let before: Vec<String> = words(&harness).into_iter().map(|(text, ..)| text).collect();
-        // as long as what a link says of another run
-        let text = format!("this run differs from the link's: digest {0}, expected {0}", "0".repeat(32));
-        ui(&mut harness, |ui| ui.say(crate::window::ui::Notice { text, is_error: true }));
-        let shown = words(&harness);
-        let notice = ["this run differs", "Dismiss"].map(|text| read_whole(&harness, text));
-        let plate = notice[0].union(notice[1]).expand(8.0);
-        let covered = shown.into_iter().filter(|(text, ink, _)| before.contains(text) && plate.intersects(*ink));
-        under.extend(covered.map(|(text, ..)| (world, text)));
-    }
-    assert_eq!(under, []);
-}
-
-#[test]
 fn a_seed_that_is_none_is_kept_for_mending_and_the_reason_stands_at_its_field() {
     for size in [WIDE, [800.0, 600.0], PHONE] {
         let mut harness = lab(size);

