@@ -80,9 +80,9 @@ impl Task {
     /// The least set of things whose removal makes a proven path appear: doors are opened, obstacles and walls taken
     /// away. Of several such sets one with the most doors, and then the most obstacles that are no walls.
     ///
-    /// A barrier that stands after a removal stands before it too, so a set that helps has a thing of every barrier. For
-    /// sets of up to three things all of those are looked at ([`Removal::is_least`]). A larger set is one of which
-    /// nothing can be left standing. Paths and barriers are those of [`PlannerName::CellDecomposition`], for the same
+    /// A barrier that stands after a removal stands before it too, so a set that helps has a thing of every barrier.
+    /// All such sets of up to three things are looked at ([`Removal::is_least`]). A larger set is one of which nothing
+    /// can be left standing. Paths and barriers are those of [`PlannerName::CellDecomposition`], for the same
     /// tube and clearance.
     ///
     /// # Errors
