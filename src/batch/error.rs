@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use motion_lab_core::one_line::OneLine;
+
 /// The version of the study format that is read.
 pub const PLAN_VERSION: u64 = 1;
 
@@ -29,9 +31,9 @@ impl fmt::Display for StudyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
         if !self.item.is_empty() {
-            write!(f, "{}: ", self.item)?;
+            write!(f, "{}: ", OneLine(&self.item))?;
         }
-        write!(f, "{}", self.problem)
+        write!(f, "{}", OneLine(&self.problem))
     }
 }
 

@@ -14,6 +14,8 @@ use std::ops::Range;
 
 use xxhash_rust::xxh3::{Xxh3, xxh3_64};
 
+use motion_lab_core::one_line::OneLine;
+
 use super::RowValue;
 use super::columns::{Column, heading};
 use super::row::RunRow;
@@ -39,7 +41,7 @@ pub enum PartError {
     #[error("it is no part of a sweep")]
     NotAPart,
     /// A study that can't be read, with the reason.
-    #[error("{0}")]
+    #[error("{}", OneLine(.0))]
     Study(String),
     /// A line that is none of this part's.
     #[error("line {0} is damaged")]

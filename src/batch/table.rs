@@ -17,6 +17,8 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::record::{Field, Row};
 use parquet::schema::types::Type;
 
+use motion_lab_core::one_line::OneLine;
+
 use super::columns::{CellKind, Column};
 use super::row::{RowValue, RunRow};
 use super::study::Study;
@@ -39,7 +41,7 @@ pub enum TableError {
     #[error("it is no table of a sweep: its metadata has no {0}")]
     NoSweep(&'static str),
     /// A study that can't be read, with the reason.
-    #[error("{0}")]
+    #[error("{}", OneLine(.0))]
     Study(String),
     /// A row that is not there.
     #[error("there is no row {row}: it has {rows}, from 0")]

@@ -21,6 +21,7 @@ const ORDER: [(&str, &[&str]); 5] = [
             "num",
             "short_list",
             "text_position",
+            "one_line",
             "names",
             "random",
             "geometry",

@@ -44,6 +44,9 @@ pub mod short_list;
 pub mod text_position;
 
 #[doc(hidden)]
+pub mod one_line;
+
+#[doc(hidden)]
 pub mod names;
 
 pub mod random;

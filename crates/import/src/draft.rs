@@ -2,6 +2,7 @@
 
 use super::Imported;
 use motion_lab_core::configuration::Sizes;
+use motion_lab_core::one_line::OneLine;
 use motion_lab_core::worlds::{Resident, ResidentSensor, WorldBuilder, WorldProblem, Xy};
 
 /// Largest number of notes kept.
@@ -35,9 +36,9 @@ impl WorldDraft {
         self.world.robot(resident)
     }
 
-    /// Adds a note, unless it is there already or there are too many.
+    /// Adds a note in one line, unless it is there already or there are too many.
     pub fn note(&mut self, note: impl Into<String>) {
-        let note = note.into();
+        let note = OneLine(note.into()).to_string();
         if self.notes.len() < MAX_NOTES && !self.notes.contains(&note) {
             self.notes.push(note);
         }

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use motion_lab_core::one_line::OneLine;
 use motion_lab_core::worlds::{MAX_CELLS, WorldProblem};
 
 /// A file that cannot be read as a world: where, which item, and why.
@@ -38,9 +39,9 @@ impl fmt::Display for ImportError {
             write!(f, "{}:", self.line)?;
         }
         if !self.item.is_empty() {
-            write!(f, " {}:", self.item)?;
+            write!(f, " {}:", OneLine(&self.item))?;
         }
-        write!(f, " {}", self.problem)
+        write!(f, " {}", OneLine(&self.problem))
     }
 }
 

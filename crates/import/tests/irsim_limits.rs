@@ -88,3 +88,12 @@ fn sensors_of_robots_are_counted_as_objects() {
     assert_eq!(robots(2).unwrap().world.robots.len(), 25_000);
     assert_eq!(robots(3).unwrap_err().to_string(), "s.yaml:4: robot[0]: too many objects: at most 100000");
 }
+
+#[test]
+fn a_note_is_one_short_line_whatever_stands_in_the_file() {
+    // yaml has keys of at most 1,024 characters
+    let long = "long_".repeat(190);
+    let map = format!("image: a\nresolution: 1\norigin: [0, 0, 0]\n{long}: 1\n");
+    let notes = motion_lab_import::RosMap::parse("m.yaml", &map).unwrap().notes;
+    assert!(notes.len() == 1 && notes[0].ends_with("long_... in line 4 says nothing of the map"), "{notes:?}");
+}

@@ -90,3 +90,25 @@ fn a_table_comes_back_row_by_row() {
     std::fs::write(file.path(), b"PAR1 and nothing else").unwrap();
     assert!(TableFile::open(file.reopen().unwrap()).is_err());
 }
+
+#[test]
+fn a_refusal_is_one_short_line_whatever_stands_in_the_file() {
+    let long = "long_".repeat(100_000);
+    for (text, begins) in [
+        (format!("Sweep(version: 1, {long}: 2)"), "study.ron:1:"),
+        (
+            format!("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"{long}\", over: Range(0, 5))])"),
+            "study.ron:1:",
+        ),
+        (format!("Sweep(version: 1, worlds: [\"lot\"], robots: [\"{long}\"])"), "study.ron:1:"),
+    ] {
+        let worlds = [("lot".to_owned(), motion_lab_core::worlds::World::lot())].into();
+        let study = StudyFile::parse("study.ron", &text).and_then(|file| file.with(&worlds, &[].into()));
+        let refused = study.unwrap_err().to_string();
+        assert!(refused.starts_with(begins) && refused.contains("long_") && refused.len() < 2000, "{refused:.200}");
+    }
+    let forged = format!("motion-lab sweep part 1\n{{\"{long}\n\": 1}}\n");
+    let sealed = format!("{forged}seal {:032x}\n", xxhash_rust::xxh3::xxh3_128(forged.as_bytes()));
+    let refused = PartReader::new(sealed.as_bytes()).err().unwrap().to_string();
+    assert!(refused.lines().count() == 1 && refused.len() < 1000, "{refused:.200}");
+}

@@ -5,6 +5,7 @@ use std::fmt;
 use super::{AllRaysError, BeamError, OutlineError, OutsideError, ResidentSensorError, RouteError};
 use crate::configuration::{SizesError, WrittenCoordinateError};
 use crate::geometry::ShapeError;
+use crate::one_line::OneLine;
 
 /// An item of a world file: `obstacles[1] "the post"`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,10 +45,10 @@ pub struct WorldError {
 impl fmt::Display for WorldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}: ", self.file, self.line, self.column)?;
-        if let Some(item) = &self.item {
-            write!(f, "{item}: ")?;
+        match &self.item {
+            Some(item) => write!(f, "{}", OneLine(format_args!("{item}: {}", self.problem))),
+            None => write!(f, "{}", OneLine(&self.problem)),
         }
-        write!(f, "{}", self.problem)
     }
 }
 

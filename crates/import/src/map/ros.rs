@@ -7,6 +7,7 @@ use crate::error::wrong_value;
 use crate::yaml::{self, YamlNode};
 use crate::{ImportError, OccupancyMap};
 use motion_lab_core::geometry::{MAX_COORDINATE, Point2, Pose2};
+use motion_lab_core::one_line::OneLine;
 
 /// The head of a ROS map: its yaml file, read as Nav2's map_server reads it.
 ///
@@ -119,8 +120,10 @@ impl RosMap {
         }
         let negate = fields.take("negate").map_or(Ok(false), negate)?;
         let mode = fields.take("mode").map_or(Ok(RosMode::Trinary), RosMode::read)?;
-        let notes =
-            fields.others().map(|(key, line)| format!("{key} in line {line} says nothing of the map")).collect();
+        let notes = fields
+            .others()
+            .map(|(key, line)| format!("{} in line {line} says nothing of the map", OneLine(key)))
+            .collect();
         let origin = Pose2::new(origin[0] + 0.0, origin[1] + 0.0, origin[2] + 0.0);
         Ok(RosMap { image, resolution, origin, negate, occupied_thresh, free_thresh, mode, notes })
     }

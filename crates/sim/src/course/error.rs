@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::recording::RunError;
 use crate::tour::MAX_TICKS;
+use motion_lab_core::one_line::OneLine;
 
 /// Largest number of seeds in an assignment.
 pub const MAX_SEEDS: usize = 10_000;
@@ -31,7 +32,7 @@ impl fmt::Display for AssignmentError {
         if !self.item.is_empty() {
             write!(f, "{}: ", self.item)?;
         }
-        write!(f, "{}", self.problem)
+        write!(f, "{}", OneLine(&self.problem))
     }
 }
 

@@ -8,6 +8,7 @@ use super::judged::{DRAWN, FileMotion, JudgedPath};
 use super::task::Task;
 use crate::export::{JsonNumber, json_seed, read_json_seed};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, RobotKind};
+use motion_lab_core::one_line::{OneLine, quoted};
 use motion_lab_core::planning::Effort;
 use motion_lab_core::robots::{AnyRobot, CarCmd, Drivable, Robot};
 
@@ -125,13 +126,13 @@ pub enum PathFileError {
         found: usize,
     },
     /// No JSON, or a field that is missing or of another type.
-    #[error("{0}")]
+    #[error("{}", OneLine(.0))]
     Json(#[from] serde_json::Error),
     /// A version of a later program.
     #[error("version {0}: this program reads version {VERSION}")]
     Version(u32),
     /// No robot of the lab.
-    #[error("robot.kind: no kind of the lab is called {0:?}, or it has another number of coordinates than `start`")]
+    #[error("robot.kind: no kind of the lab is called {}, or it has another number of coordinates than `start`", quoted(.0))]
     Kind(String),
     /// Numbers that are no configuration of the robot.
     #[error("{field}: no configuration of this robot")]
@@ -151,7 +152,7 @@ pub enum PathFileError {
     #[error("growth.edges[{0}]: there is no such node")]
     Edge(usize),
     /// A leg of a kind that the robot has not.
-    #[error("legs[{leg}].kind: {kind:?} is neither \"chart line\" nor, with a control and for a car, \"drive\"")]
+    #[error("legs[{leg}].kind: {} is neither \"chart line\" nor, with a control and for a car, \"drive\"", quoted(.kind))]
     Leg {
         /// The leg's number, from 0.
         leg: usize,

@@ -34,6 +34,7 @@ pub use mcap::{
 pub use quantized::Quantized;
 pub use recipe::{Recipe, RunInput};
 pub use script::{Event, RobotInput, SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES, Script};
+pub(crate) use script_check::ChangedWorlds;
 #[doc(hidden)]
 pub use script_check::check_target;
 pub use script_error::{

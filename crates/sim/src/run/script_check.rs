@@ -1,6 +1,5 @@
 //! Checks scripts: each event and change by itself, and all of them against a run's robots and worlds.
 
-use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::script_error::{
@@ -10,7 +9,7 @@ use super::{Event, Quantized, RobotInput, Script, WorldChange, WorldEvent};
 use crate::tour::{MAX_TICKS, TourConfig};
 use motion_lab_core::configuration::{Kinds, RobotKind};
 use motion_lab_core::geometry::{Aabb, MAX_COORDINATE, Point2};
-use motion_lab_core::worlds::{MAX_ITEMS, OutsideError, World, check_name};
+use motion_lab_core::worlds::{MAX_ITEMS, Obstacle, OutsideError, World, check_name};
 
 impl Script {
     /// Checks a script made by a program: whether [`parse`](Self::parse) could have returned it.
@@ -105,96 +104,135 @@ impl Script {
 
     /// Checks that the changes fit the worlds of a run: that each names a world, and in it a door, an obstacle that the
     /// world or an earlier change has, or a new obstacle's name that nothing has; that no world gets more than
-    /// [`MAX_ITEMS`] shapes; and that the shapes of the changed worlds, over the ticks that change them, are at most
-    /// [`MAX_CHANGED_SHAPES`].
+    /// [`MAX_ITEMS`] shapes; and that at most [`MAX_CHANGED_SHAPES`] are placed for the changes: all of a world at a
+    /// tick's first change of it, those of what is changed at each further one.
     ///
     /// # Errors
     /// [`ScriptError`] without file and line, naming the first change that does not fit.
     pub fn check_worlds(&self, worlds: &[World]) -> Result<(), ScriptError> {
-        let mut added: BTreeSet<(&str, &str)> = BTreeSet::new();
-        let mut known: BTreeMap<&str, KnownNames> = BTreeMap::new();
-        let mut made = 0;
-        for (i, WorldEvent { tick, world, change }) in self.changes.iter().enumerate() {
-            let (world, name) = (world.as_str(), change.name());
-            let names = match known.entry(world) {
-                Entry::Occupied(names) => names.into_mut(),
-                Entry::Vacant(place) => {
-                    let names = KnownNames::of_world(worlds, world).map_err(|problem| problem.at("changes", i))?;
-                    place.insert(names)
-                }
-            };
-            let is_new = |name| !names.all.contains(name) && !added.contains(&(world, name));
-            let fits = match change {
-                WorldChange::Close(_) | WorldChange::Open(_) => names.doors.contains(name),
-                WorldChange::Add { .. } => is_new(name),
-                WorldChange::Remove(_) | WorldChange::Move { .. } => {
-                    names.obstacles.contains(name) || added.contains(&(world, name))
-                }
-            };
-            if !fits {
-                let (world, name) = (world.to_owned(), name.to_owned());
-                let problem = match change {
-                    WorldChange::Close(_) | WorldChange::Open(_) => ScriptProblem::Door { world, name },
-                    WorldChange::Add { .. } => ScriptProblem::Taken { world, name },
-                    WorldChange::Remove(_) | WorldChange::Move { .. } => ScriptProblem::Obstacle { world, name },
-                };
-                return Err(problem.at("changes", i));
-            }
-            if let WorldChange::Add { name, .. } = change {
-                added.insert((world, name));
-            }
-            let is_add = matches!(change, WorldChange::Add { .. });
-            made += names.shapes.changed(*tick, is_add);
-            if is_add && names.shapes.count > MAX_ITEMS as u64 {
-                return Err(ScriptProblem::Shapes(world.to_owned()).at("changes", i));
-            }
-            if made > MAX_CHANGED_SHAPES {
-                return Err(ScriptProblem::ChangedShapes.at("changes", i));
+        let mut changed = ChangedWorlds::default();
+        let mut changes = self.changes.iter().enumerate();
+        changes.try_for_each(|(i, event)| changed.take(worlds, event).map_err(|problem| problem.at("changes", i)))
+    }
+}
+
+/// The worlds of a run as the changes of its script leave them, one change after the other: their names, and how many
+/// shapes they have. What a change takes does not grow with the number of those before it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ChangedWorlds {
+    worlds: BTreeMap<String, KnownNames>,
+    /// The shapes that are placed for the changes.
+    made: u64,
+}
+
+impl ChangedWorlds {
+    /// Takes the script's next change. `worlds` are those of the run, the same each time.
+    ///
+    /// # Errors
+    /// As [`check`](Self::check), and nothing is taken.
+    pub fn take(&mut self, worlds: &[World], event: &WorldEvent) -> Result<(), ScriptProblem> {
+        let (shapes, made) = self.after(worlds, event)?;
+        self.made = made;
+        if let Some(names) = self.worlds.get_mut(&event.world) {
+            names.shapes = shapes;
+            if let WorldChange::Add { name, .. } = &event.change {
+                names.things.insert(name.clone(), NamedThing::Obstacle { shapes: 1 });
             }
         }
         Ok(())
     }
+
+    /// Checks the change that the script would have next.
+    ///
+    /// # Errors
+    /// [`ScriptProblem`], as those of [`Script::check_worlds`].
+    pub fn check(&mut self, worlds: &[World], event: &WorldEvent) -> Result<(), ScriptProblem> {
+        self.after(worlds, event).map(|_| ())
+    }
+
+    /// The shapes of the change's world, and those of all, after the change.
+    fn after(&mut self, worlds: &[World], event: &WorldEvent) -> Result<(ChangedShapes, u64), ScriptProblem> {
+        let WorldEvent { tick, world, change } = event;
+        let name = change.name();
+        if !self.worlds.contains_key(world) {
+            self.worlds.insert(world.clone(), KnownNames::of_world(worlds, world)?);
+        }
+        let Some(names) = self.worlds.get(world) else { return Err(ScriptProblem::World(world.clone())) };
+        let own = match (change, names.things.get(name)) {
+            (WorldChange::Close(_) | WorldChange::Open(_), Some(NamedThing::Door))
+            | (WorldChange::Add { .. }, None) => 1,
+            (WorldChange::Remove(_) | WorldChange::Move { .. }, Some(NamedThing::Obstacle { shapes })) => *shapes,
+            _ => {
+                let (world, name) = (world.clone(), name.to_owned());
+                return Err(match change {
+                    WorldChange::Close(_) | WorldChange::Open(_) => ScriptProblem::Door { world, name },
+                    WorldChange::Add { .. } => ScriptProblem::Taken { world, name },
+                    WorldChange::Remove(_) | WorldChange::Move { .. } => ScriptProblem::Obstacle { world, name },
+                });
+            }
+        };
+        let is_add = matches!(change, WorldChange::Add { .. });
+        let mut shapes = names.shapes;
+        let made = self.made + shapes.changed(*tick, own, is_add);
+        if is_add && shapes.count > MAX_ITEMS as u64 {
+            return Err(ScriptProblem::Shapes(world.clone()));
+        }
+        if made > MAX_CHANGED_SHAPES { Err(ScriptProblem::ChangedShapes) } else { Ok((shapes, made)) }
+    }
+}
+
+/// What a name of a world stands for, as far as changes ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum NamedThing {
+    Door,
+    Obstacle {
+        shapes: u64,
+    },
+    /// What no change can change.
+    Other,
 }
 
 /// The names of a world, and its shapes.
-struct KnownNames<'a> {
-    all: BTreeSet<&'a str>,
-    doors: BTreeSet<&'a str>,
-    obstacles: BTreeSet<&'a str>,
+#[derive(Clone, Debug)]
+struct KnownNames {
+    things: BTreeMap<String, NamedThing>,
     shapes: ChangedShapes,
 }
 
 /// The shapes of a world, and the tick that has changed it last.
+#[derive(Clone, Copy, Debug)]
 struct ChangedShapes {
     count: u64,
     tick: u64,
 }
 
 impl ChangedShapes {
-    /// Takes a change. Returns how many shapes the scene of its tick has by it, beyond those that were counted.
-    fn changed(&mut self, tick: u64, is_add: bool) -> u64 {
+    /// Takes a change of something of `own` shapes. Returns how many are placed for it: the first change of a tick has
+    /// a scene made, and each further one is held against the robots.
+    fn changed(&mut self, tick: u64, own: u64, is_add: bool) -> u64 {
         self.count += u64::from(is_add);
         let is_first = self.tick != tick;
         self.tick = tick;
-        if is_first { self.count } else { u64::from(is_add) }
+        if is_first { self.count } else { own }
     }
 }
 
-impl<'a> KnownNames<'a> {
-    fn of_world(worlds: &'a [World], name: &str) -> Result<Self, ScriptProblem> {
+impl KnownNames {
+    fn of_world(worlds: &[World], name: &str) -> Result<Self, ScriptProblem> {
         let mut named = worlds.iter().filter(|w| w.name == name);
         let world = named.next().ok_or_else(|| ScriptProblem::World(name.to_owned()))?;
         if named.next().is_some() {
             return Err(ScriptProblem::SameWorld(name.to_owned()));
         }
-        let doors: BTreeSet<&str> = world.doors.iter().map(|d| d.name.as_str()).collect();
-        let obstacles: BTreeSet<&str> = world.obstacles.iter().map(|o| o.name.as_str()).collect();
         let others = world.places.iter().map(|p| &p.name).chain(world.marks.iter().map(|m| &m.name));
-        let others = others.chain(world.robots.iter().map(|r| &r.name)).map(String::as_str);
-        let all = others.chain(doors.iter().copied()).chain(obstacles.iter().copied()).collect();
+        let others = others.chain(world.robots.iter().map(|r| &r.name)).map(|name| (name, NamedThing::Other));
+        let doors = world.doors.iter().map(|d| (&d.name, NamedThing::Door));
+        let shapes = |obstacle: &Obstacle| NamedThing::Obstacle { shapes: obstacle.pieces.len() as u64 };
+        let obstacles = world.obstacles.iter().map(|o| (&o.name, shapes(o)));
+        let things = others.chain(doors).chain(obstacles).map(|(name, thing)| (name.clone(), thing)).collect();
         let pieces: usize = world.obstacles.iter().map(|o| o.pieces.len()).sum();
         let shapes = ChangedShapes { count: (pieces + world.doors.len()) as u64, tick: 0 };
-        Ok(KnownNames { all, doors, obstacles, shapes })
+        Ok(KnownNames { things, shapes })
     }
 }
 
@@ -271,7 +309,7 @@ pub fn check_target(at: Point2, bounds: &Aabb) -> Result<(), OutsideError> {
 
 impl WorldEvent {
     /// Checks the change by itself, after one at the tick `before`.
-    pub(super) fn check(&self, before: u64) -> Result<(), ScriptProblem> {
+    pub(crate) fn check(&self, before: u64) -> Result<(), ScriptProblem> {
         check_tick(self.tick, before)?;
         match &self.change {
             WorldChange::Close(_) | WorldChange::Open(_) | WorldChange::Remove(_) => Ok(()),

@@ -4,13 +4,15 @@ use super::script::{SCRIPT_VERSION, SCRIPT_VERSION_WITH_CHANGES};
 use crate::tour::MAX_TICKS;
 use motion_lab_core::configuration::{InputKind, RobotKind, Space};
 use motion_lab_core::geometry::MAX_COORDINATE;
+use motion_lab_core::one_line::OneLine;
 use motion_lab_core::worlds::MAX_ITEMS;
 
 /// Largest number of events in a script.
 pub const MAX_EVENTS: usize = 1_000_000;
 /// Largest number of coordinates in a `MoveTo` or `Teleport`.
 pub const MAX_COORDINATES: usize = 64;
-/// Largest sum of the shapes of a world over the ticks at which a script changes it: its scene is made anew at each.
+/// Largest number of shapes that are placed for a script's changes: those of a world at each tick that changes it,
+/// whose scene is made anew, and those of each thing that changes after the first of its tick.
 pub const MAX_CHANGED_SHAPES: u64 = 1_000_000_000;
 /// The greatest absolute value of a control channel: the robot's maximum.
 pub const MAX_CHANNEL: i16 = motion_lab_core::robots::CHANNEL_UNITS as i16;
@@ -40,7 +42,7 @@ impl std::fmt::Display for ScriptError {
         if let Some(event) = self.event {
             write!(f, "{}[{event}]: ", self.list)?;
         }
-        write!(f, "{}", self.problem)
+        write!(f, "{}", OneLine(&self.problem))
     }
 }
 
@@ -142,8 +144,8 @@ pub enum ScriptProblem {
     Shapes(String),
     /// A tick at which a world changes too often for its size.
     #[error(
-        "the worlds change too often for their size: the shapes of a changed world, over all ticks that change it, are \
-         at most {MAX_CHANGED_SHAPES} in all"
+        "the worlds change too often for their size: the shapes of a changed world, over all ticks that change it, and \
+         those of what changes again within a tick are at most {MAX_CHANGED_SHAPES} in all"
     )]
     ChangedShapes,
     /// A new obstacle whose name no world file could hold.
@@ -184,7 +186,7 @@ impl ScriptProblem {
     }
 
     /// The problem of item number `index` of a list of such a script.
-    pub(super) fn at(self, list: &'static str, index: usize) -> ScriptError {
+    pub(crate) fn at(self, list: &'static str, index: usize) -> ScriptError {
         ScriptError { list, event: Some(index), ..self.anywhere() }
     }
 }

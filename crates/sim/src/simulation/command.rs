@@ -4,17 +4,20 @@
 //! [`start_recipe`] begin another run, [`seek()`], [`step()`] and
 //! [`play_tick`](super::play_tick) move it, [`restore`](super::restore) puts a frame back. The queue calls the same.
 
+use std::sync::Arc;
+
 use bevy::prelude::*;
 
 use super::obstacles::change::{RefusedChanges, refusal};
-use super::obstacles::roster::sync_added;
+use super::obstacles::roster::{add_obstacle, sync_added};
 use super::transport::re_rolled;
 use super::truth::settle;
 use super::{
     CommandError, CommandRefused, History, Keyframes, PendingInput, Playback, Refusals, RefusedEvent, RobotCommand,
-    Roster, SpawnError, Transport, TransportCommand, recipe, seek, start_recipe, step, undo,
+    Roster, RunConfig, SpawnError, Transport, TransportCommand, recipe, seek, start_recipe, step, undo,
 };
 use crate::run::{Event, MAX_EVENTS, Recipe, Script, ScriptError, ScriptProblem, WorldChange, WorldEvent};
+use crate::tour::TourConfig;
 use motion_lab_core::random::Seed;
 
 /// A command to the run, as a message. Commands are carried out in the order in which they were written, before the
@@ -89,33 +92,58 @@ pub(super) fn report_changes(mut refused: ResMut<RefusedChanges>, mut messages: 
 }
 
 /// Stamps a change of a world with the next tick. One that would be refused now is refused, and stays out of the
-/// script.
+/// script. What it takes grows with the script only where the run does not go on from the script's end.
 pub(crate) fn give_change(world: &mut World, command: WorldCommand, later: Later) -> Result<(), CommandError> {
     let WorldCommand { world: name, change } = command;
     let &Transport { tick, frontier, looping, .. } = world.resource::<Transport>();
-    let Some(now) = recipe(world) else { return Ok(()) };
+    let Some(config) = world.get_resource::<RunConfig>().map(|config| Arc::clone(config.config())) else {
+        return Ok(());
+    };
     let event = WorldEvent { tick: tick + 1, world: name, change };
     let continues = tick < frontier || looping;
-    let mut changes = world.resource::<PendingInput>().script().changes.clone();
-    // those of the next tick are forgotten where the run continues from here
-    changes.retain(|c| if continues { c.tick <= tick } else { later == Later::Kept || c.tick <= event.tick });
-    changes.insert(changes.partition_point(|c| c.tick <= event.tick), event.clone());
-    let script = Script::new(Vec::new(), changes);
     check_count(world)?;
-    script.check().and_then(|()| script.check_worlds(&now.config.worlds))?;
+    let is_last = !continues && world.resource::<PendingInput>().is_last(event.tick);
+    if is_last {
+        world.resource_mut::<PendingInput>().check_last(&config, &event)?;
+    } else {
+        check_among(world, &config, &event, |c| {
+            // those of the next tick are forgotten where the run continues from here
+            if continues { c.tick <= tick } else { later == Later::Kept || c.tick <= event.tick }
+        })?;
+    }
     if let Some(refused) = refusal(world, &event) {
         return Err(CommandError::Change(refused));
     }
     if continues {
         continue_from_here(world);
     }
+    if is_last {
+        add_obstacle(world, &event);
+    }
     let mut pending = world.resource_mut::<PendingInput>();
     match later {
         Later::Forgotten => pending.capture_change(event),
         Later::Kept => pending.add_change(event),
     }
-    sync_added(world, &script.changes);
+    if !is_last {
+        let changes = pending.script().changes.clone();
+        sync_added(world, &changes);
+    }
     Ok(())
+}
+
+/// Checks a change among those of the script that stay.
+fn check_among(
+    world: &World,
+    config: &TourConfig,
+    event: &WorldEvent,
+    stays: impl Fn(&WorldEvent) -> bool,
+) -> Result<(), ScriptError> {
+    let mut changes = world.resource::<PendingInput>().script().changes.clone();
+    changes.retain(stays);
+    changes.insert(changes.partition_point(|c| c.tick <= event.tick), event.clone());
+    let script = Script::new(Vec::new(), changes);
+    script.check().and_then(|()| script.check_worlds(&config.worlds))
 }
 
 /// Stamps an input with the next tick. Input at a tick before the frontier, and any input to a looping run, continues

@@ -3,10 +3,11 @@
 use bevy::prelude::{Insert, On, Query, ResMut, Resource};
 use motion_lab_core::geometry::Aabb;
 use motion_lab_core::worlds::{Obstacle, ObstacleKind};
-use motion_lab_sim::recording::Run;
+use motion_lab_sim::recording::{Recorder, Run};
 use motion_lab_sim::run::{MAX_CHANGED_SHAPES, RobotInput};
 use motion_lab_sim::simulation::{
-    App, CommandRefused, LatestFrame, Refusals, SceneRevision, SimulationPlugin, WorldScene, start_run, step,
+    App, CommandError, CommandRefused, LatestFrame, Refusals, SceneRevision, SimulationPlugin, WorldScene, start_run,
+    step,
 };
 
 use super::*;
@@ -123,6 +124,11 @@ fn a_script_changes_no_world_more_often_than_its_size_allows() {
     assert!(refused.to_string().starts_with(words), "{refused}");
     // a tick makes one scene, however many changes it has
     assert_eq!(of_large((1..=900_000).map(|k| (1 + k / 100, door(k)))).check_worlds(&worlds), Ok(()));
+    // but each change places what it changes: 100,000 shapes at first, then 9,999 times the 99,999 of an obstacle
+    let around = |k: u64| moved("all", 1e-3 * (k % 2) as f64, 0.0);
+    assert_eq!(of_large((1..=10_000).map(|k| (1, around(k)))).check_worlds(&worlds), Ok(()));
+    let refused = of_large((1..=10_002).map(|k| (1, around(k)))).check_worlds(&worlds).unwrap_err();
+    assert!(refused.to_string().starts_with("changes[10000]: the worlds change too often"), "{refused}");
     let script = of_large((1..=10_001).map(|tick| (tick, door(tick))));
     let config = TourConfig { worlds: worlds.to_vec(), ticks: 1, sensor: None };
     assert!(Run::record(config, (Seed(1), script)).unwrap_err().to_string().starts_with(words));
@@ -139,4 +145,65 @@ fn a_script_adds_no_more_shapes_than_a_world_may_have() {
     // one that is larger from the start may change
     let opened = of_large([(7, WorldChange::Close("door".into()))]);
     assert_eq!(opened.check_worlds(&[large(100_002)]), Ok(()));
+}
+
+/// Heap allocations of the changes of these numbers, which a live run takes within a tick.
+fn allocations(live: &mut Recorder, numbers: std::ops::Range<usize>) -> u64 {
+    let counted = allocation_counter::measure(|| {
+        numbers.for_each(|k| live.change("Apartment", post(&format!("post {k}"), 4.2, 7.5)).unwrap());
+    });
+    counted.count_total
+}
+
+#[test]
+fn a_live_run_takes_a_change_whatever_the_number_of_those_before_it() {
+    let mut live = Recorder::new(apartment(5), Seed(1)).unwrap();
+    let counts = [0..100, 100..200, 200..4000, 4000..4100].map(|numbers| allocations(&mut live, numbers));
+    // the script's list and the entities' grow now and then
+    assert!(counts[3] < counts[1] + 50 && counts[1] > 100, "{counts:?}");
+    assert_eq!(live.script().changes.len(), 4100);
+    live.step();
+    assert_eq!((live.refusals().count(), live.frame().obstacles.len()), (0, 4100));
+}
+
+#[test]
+fn a_live_run_refuses_the_changes_that_its_script_could_not_have() {
+    let mut live = Recorder::new(apartment(40), Seed(1)).unwrap();
+    let worlds = live.config().worlds.clone();
+    let (door, a, b) = (World::apartment().doors[0].name.clone(), || "a".to_owned(), || "b".to_owned());
+    let tries = |tick: u64| {
+        let of = [
+            post("a", 4.2, 7.5),
+            post("a", 4.3, 7.5),
+            post("b", 4.4, 7.5),
+            WorldChange::Remove(a()),
+            WorldChange::Remove("c".into()),
+            moved("b", 0.1, 0.0),
+            WorldChange::Close(b()),
+            WorldChange::Open(door.clone()),
+            WorldChange::Remove(door.clone()),
+            post("", 1.0, 1.0),
+        ];
+        of.into_iter().map(move |change| WorldEvent { tick, world: "Apartment".into(), change })
+    };
+    let mut refused = Vec::new();
+    // the run goes on, back behind its first change, whose names are free again, and on once more
+    for tick in [0, 3, 7, 0, 3, 2] {
+        live.seek(tick).unwrap();
+        for event in
+            tries(tick + 1).chain([WorldEvent { tick: tick + 1, world: "Lot".into(), change: post("d", 1.0, 1.0) }])
+        {
+            let mut script = live.script().clone();
+            script.changes.retain(|change| {
+                change.tick <= tick || change.tick <= event.tick && live.transport().frontier() == tick
+            });
+            script = Script::new(vec![], [script.changes, vec![event.clone()]].concat());
+            let expected = script.check().and_then(|()| script.check_worlds(&worlds)).map_err(CommandError::Script);
+            let given = live.change(&event.world, event.change);
+            refused.push(given.is_err());
+            assert_eq!(given, expected);
+        }
+    }
+    let count = |is: bool| refused.iter().filter(|refused| **refused == is).count();
+    assert!(count(true) > 25 && count(false) > 15, "{refused:?}");
 }

@@ -251,3 +251,16 @@ fn the_rays_of_all_robots_together_have_a_limit() {
     let expected = "with its sensors there are 40100000 rays in all: at most 40000000";
     assert_eq!(error, format!("yard.ron:8:1: robots[6] \"R6\": {expected}"));
 }
+
+#[test]
+fn a_refusal_is_one_short_line_whatever_stands_in_the_file() {
+    let long = "long_".repeat(100_000);
+    let lines = [format!("{long}: 1"), format!("walls: [(name: \"{long}\", points: [])]"), format!("walls: [{long}]")];
+    for line in lines.into_iter().chain([format!("robots: [(name: \"r\", kind: \"{long}\\n\", start: [])]")]) {
+        let refused = refusal(&line);
+        assert!(refused.starts_with("yard.ron:3:") && refused.contains("long_"), "{refused:.200}");
+        assert!(refused.len() < 1000 && refused.ends_with("..."), "{} bytes", refused.len());
+    }
+    let lines = refusal("robots: [(name: \"a\\nb\", kind: \"rusty\", start: [1, 1, 0])]");
+    assert_eq!(lines.lines().count(), 1, "{lines}");
+}

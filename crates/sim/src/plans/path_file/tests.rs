@@ -62,3 +62,12 @@ fn a_refusal_names_the_field() {
     let large = PathFile::read(&" ".repeat(MAX_PATH_BYTES + 1)).unwrap_err().to_string();
     assert!(large.starts_with("67108865 bytes"), "{large}");
 }
+
+#[test]
+fn a_refusal_is_one_short_line_whatever_stands_in_the_file() {
+    let long = format!("\"{}\"", "long ".repeat(100_000));
+    for from in ["\"reach\"", "\"chart line\"", "1, \"robot\"", "[-3.0, 0.5],"] {
+        let refused = refused(from, &from.replacen(from.split(", ").next().unwrap().trim_end_matches(','), &long, 1));
+        assert!(refused.contains("long ") && refused.len() < 1000, "{refused:.200}");
+    }
+}

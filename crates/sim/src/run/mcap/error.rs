@@ -5,6 +5,7 @@ use std::fmt;
 use super::ReadLog;
 use crate::run::{Digest, LogKind, ScriptError};
 use crate::tour::ConfigError;
+use motion_lab_core::one_line::{OneLine, quoted};
 
 /// Why a log can't be written, or a file can't be read as one.
 #[derive(Debug, thiserror::Error)]
@@ -80,11 +81,12 @@ pub enum LogError {
     #[error("this is a digest log, which holds no frames")]
     NoFrames,
     /// A log in a version of the format that this program does not read.
-    #[error("the log has format version {0:?}; this program reads versions {old:?}, {new:?} and {digests:?}",
-        old = super::FORMAT_VERSION, new = super::FORMAT_VERSION_WITH_CHANGES, digests = super::DIGEST_FORMAT_VERSION)]
+    #[error("the log has format version {}; this program reads versions {old:?}, {new:?} and {digests:?}",
+        quoted(.0), old = super::FORMAT_VERSION, new = super::FORMAT_VERSION_WITH_CHANGES,
+        digests = super::DIGEST_FORMAT_VERSION)]
     Version(String),
     /// The part before the first tick is sealed, but something in it is not valid.
-    #[error("{item} in the log: {reason}")]
+    #[error("{item} in the log: {}", OneLine(.reason))]
     Content {
         /// The attachment or metadata entry.
         item: String,

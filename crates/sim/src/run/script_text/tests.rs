@@ -160,3 +160,17 @@ fn a_script_made_by_a_program_gets_the_same_checks() {
     let many = Script::new(vec![event(1, RobotInput::Release); MAX_EVENTS + 1], vec![]);
     assert_eq!(many.check().unwrap_err().problem, ScriptProblem::TooMany(MAX_EVENTS + 1));
 }
+
+#[test]
+fn a_refusal_is_one_short_line_whatever_stands_in_the_file() {
+    let long = "long_".repeat(100_000);
+    for (from, to) in
+        [("Release", long.clone()), ("tick: 7", format!("{long}: 7")), ("version: 1", format!("{long}: 1"))]
+    {
+        let refused = refused(from, &to);
+        assert!(refused.contains("long_") && refused.len() < 1000 && refused.ends_with("..."), "{refused:.200}");
+    }
+    let event = Event { tick: 1, robot: long, input: RobotInput::Release };
+    let refused = Script::new(vec![event], vec![]).check_robots(&[]).unwrap_err().to_string();
+    assert!(refused.starts_with("events[0]: there is no robot") && refused.len() < 1000, "{refused:.200}");
+}

@@ -120,6 +120,13 @@ impl WorldObstacles {
         self.entries.push(RosterEntry { entity, source, at_first, now: at_first });
     }
 
+    /// Adds an obstacle, which is not there yet.
+    fn add(&mut self, world: &mut World, obstacle: Obstacle) {
+        let (name, absent) = (obstacle.name.clone(), Placement { present: false, ..Placement::default() });
+        self.push(&name, Entity::PLACEHOLDER, ShapeSource::Added(obstacle), absent);
+        self.dress(world, self.entries.len() - 1);
+    }
+
     pub(crate) fn entity(&self) -> Entity {
         self.entity
     }
@@ -268,6 +275,17 @@ pub(crate) fn refresh(world: &mut World, roster: &mut ObstacleRoster) {
     }
 }
 
+/// Spawns the entity of the obstacle that a change adds, which comes after all others of its world.
+pub(crate) fn add_obstacle(world: &mut World, event: &WorldEvent) {
+    let Some(Ok(obstacle)) = event.change.added() else { return };
+    with_roster(world, |world, roster| {
+        let number = roster.world(&event.world);
+        if let Some(ground) = number.and_then(|number| roster.grounds.get_mut(number)) {
+            ground.add(world, obstacle);
+        }
+    });
+}
+
 /// Makes the entities of added obstacles those of these changes: spawns what they add, and despawns what they don't.
 pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
     let mut added: BTreeMap<&str, Vec<Obstacle>> = BTreeMap::new();
@@ -290,12 +308,7 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
                 world.despawn(entry.entity);
             }
             ground.changed.split_off(&kept);
-            let absent = Placement { present: false, ..Placement::default() };
-            for obstacle in wanted.into_iter().skip(kept - file) {
-                let name = obstacle.name.clone();
-                ground.push(&name, Entity::PLACEHOLDER, ShapeSource::Added(obstacle), absent);
-                ground.dress(world, ground.entries.len() - 1);
-            }
+            wanted.into_iter().skip(kept - file).for_each(|obstacle| ground.add(world, obstacle));
         }
         refresh(world, roster);
     });

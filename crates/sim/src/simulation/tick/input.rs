@@ -1,11 +1,14 @@
 //! `PendingInput`, the run's script as it grows, and the system that applies the events of a tick.
 
+use std::sync::Arc;
+
 use bevy::prelude::*;
 
 use super::world_crowds::others_now;
-use crate::run::{Event, RobotInput, Script, WorldChange, WorldEvent};
+use crate::run::{ChangedWorlds, Event, RobotInput, Script, ScriptError, WorldChange, WorldEvent};
 use crate::simulation::obstacles::change::{self, RefusedChanges};
 use crate::simulation::{Refusals, RefusedEvent, RefusedInput, ResidesIn, RobotId, RobotOps, Roster, Transport};
+use crate::tour::TourConfig;
 
 /// An input to a robot from its driver, sent as a [`RunCommand`](crate::simulation::RunCommand). It applies before the
 /// next tick's step.
@@ -18,12 +21,29 @@ pub struct RobotCommand {
 }
 
 /// All input of the run, past and to come, in order of its ticks. A recorder records it and a replay fills it.
-#[derive(Resource, Clone, Debug, PartialEq)]
+#[derive(Resource, Clone, Debug)]
 pub struct PendingInput {
     script: Script,
     /// The tick of the last captured live input. While input is captured for it, events at the next tick are
     /// releases put off from it.
     captured: Option<u64>,
+    checked: CheckedChanges,
+}
+
+/// The first changes of the script, which were checked: one at its end is checked without them.
+#[derive(Clone, Debug, Default)]
+struct CheckedChanges {
+    count: usize,
+    /// The run's configuration, whose worlds they change.
+    config: Option<Arc<TourConfig>>,
+    /// The worlds as they leave them.
+    worlds: ChangedWorlds,
+}
+
+impl PartialEq for PendingInput {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.script, self.captured) == (&other.script, other.captured)
+    }
 }
 
 impl Default for PendingInput {
@@ -37,7 +57,7 @@ impl PendingInput {
     pub fn new(mut script: Script) -> Self {
         script.events.sort_by_key(|e| e.tick);
         script.changes.sort_by_key(|c| c.tick);
-        PendingInput { script, captured: None }
+        PendingInput { script, captured: None, checked: CheckedChanges::default() }
     }
 
     /// The script.
@@ -65,6 +85,38 @@ impl PendingInput {
     pub fn truncate_after(&mut self, tick: u64) {
         self.script.truncate_after(tick);
         self.captured = None;
+        self.check_again_from(self.script.changes.len());
+    }
+
+    /// Forgets what is known of the changes from this number on, if there is anything.
+    fn check_again_from(&mut self, number: usize) {
+        if number < self.checked.count {
+            self.checked = CheckedChanges::default();
+        }
+    }
+
+    /// Whether a change at this tick would be the script's last.
+    pub(crate) fn is_last(&self, tick: u64) -> bool {
+        self.script.changes.last().is_none_or(|last| last.tick <= tick)
+    }
+
+    /// Checks a change that would be the script's last in a run of this configuration. What it takes does not grow with
+    /// the script: the changes before it are checked once.
+    ///
+    /// # Errors
+    /// [`ScriptError`] for a change that the script can't have.
+    pub(crate) fn check_last(&mut self, config: &Arc<TourConfig>, change: &WorldEvent) -> Result<(), ScriptError> {
+        let (checked, changes) = (&mut self.checked, &self.script.changes);
+        if !checked.config.as_ref().is_some_and(|known| Arc::ptr_eq(known, config)) {
+            *checked = CheckedChanges { config: Some(Arc::clone(config)), ..CheckedChanges::default() };
+        }
+        for (number, known) in changes.iter().enumerate().skip(checked.count) {
+            checked.worlds.take(&config.worlds, known).map_err(|problem| problem.at("changes", number))?;
+            checked.count += 1;
+        }
+        let before = changes.last().map_or(0, |last| last.tick);
+        let fits = change.check(before).and_then(|()| checked.worlds.check(&config.worlds, change));
+        fits.map_err(|problem| problem.at("changes", changes.len()))
     }
 
     /// Captures a live change of a world for its tick, which is the next to run. Later input is forgotten. Of several
@@ -74,6 +126,8 @@ impl PendingInput {
         if matches!(change.change, WorldChange::Close(_) | WorldChange::Open(_)) {
             let (world, name) = (change.world.clone(), change.change.name().to_owned());
             let is_same = |c: &WorldEvent| c.tick == change.tick && c.world == world && c.change.name() == name;
+            let first = self.script.changes.iter().position(&is_same).unwrap_or(self.script.changes.len());
+            self.check_again_from(first);
             self.script.changes.retain(|c| !is_same(c));
         }
         self.script.changes.push(change);
@@ -83,6 +137,7 @@ impl PendingInput {
     /// Adds a change after those of its tick. What comes later stays.
     pub(crate) fn add_change(&mut self, change: WorldEvent) {
         let at = self.script.changes.partition_point(|c| c.tick <= change.tick);
+        self.check_again_from(at);
         self.script.changes.insert(at, change);
         self.script.version = Script::version_of(&self.script.changes);
     }

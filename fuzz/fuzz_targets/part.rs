@@ -1,0 +1,5 @@
+#![no_main]
+
+use motion_lab_fuzz::targets::part::check;
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| _ = check(data));
