@@ -1,5 +1,5 @@
-//! The runs that every build of the lab has to give to the last bit, and their digests. `tests/all/determinism` compares
-//! builds by them.
+//! The runs that every build of the lab has to give to the last bit, and their digests, by which
+//! `tests/all/determinism` compares builds.
 //!
 //! | arguments | what comes of it |
 //! |---|---|

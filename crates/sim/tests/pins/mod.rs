@@ -14,7 +14,7 @@
 //! No digest here may be replaced to make a test pass.
 
 mod app;
-pub(crate) mod recipes;
+pub mod recipes;
 
 use bevy::app::App;
 use motion_lab_core::prelude::*;

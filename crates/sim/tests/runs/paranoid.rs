@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use bevy::app::App;
 use bevy::prelude::{IntoScheduleConfigs, Local, Query};
+use motion_lab_core::configuration::Configuration as _;
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{ChartLine, ConfigurationError, PartRates, Rates};
 use motion_lab_sim::recording::{ParanoidRun, Recorder, UnrepeatedTick};

@@ -12,7 +12,7 @@ pub(crate) struct PhaseState {
     pub(crate) phase: SimulationSystems,
     /// The robots, the obstacles and the scans so far.
     pub(crate) frame: Frame,
-    /// The robots' controls, as they print, by ascending id.
+    /// The robots' controls, as they print, by ascending id; none before the tick has given them.
     pub(crate) controls: Vec<String>,
 }
 
@@ -41,7 +41,8 @@ pub(crate) fn watch_phases(app: &mut App) {
 fn keep(world: &mut World, phase: SimulationSystems) {
     let robots = world.get_resource::<Roster>().map_or(&[][..], Roster::robots);
     let control = |&robot: &Entity| (world.get::<RobotOps>(robot)?.control)(world, robot);
-    let controls = robots.iter().map(|robot| control(robot).unwrap_or_default()).collect();
+    let driven = if phase == SimulationSystems::Input { &[][..] } else { robots };
+    let controls = driven.iter().map(|robot| control(robot).unwrap_or_default()).collect();
     let state = PhaseState { phase, frame: snapshot(world), controls };
     world.resource_mut::<PhaseStates>().0.push(state);
 }
