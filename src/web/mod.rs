@@ -1,10 +1,8 @@
 //! The lab in a web page: addresses that hold a run, and what the WebAssembly builds export.
 //!
 //! There are two builds. The light one, without the feature `web`, records, verifies and draws runs; the page's
-//! overlay, the pages that hold one run, and the identity tests use it. The other is the lab itself.
+//! overlay, the pages that hold one run, and `tests/all/determinism` use it. The other is the lab itself.
 
-#[cfg(target_family = "wasm")]
-mod identity;
 // the light build only reads links
 #[cfg_attr(not(feature = "web"), allow(dead_code))]
 mod inputs;

@@ -1,70 +1,17 @@
 //! Runs as the light WebAssembly build exports them: recorded from their parts, verified, drawn.
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::link::{Link, ReadLink};
 use motion_lab_core::picture::Theme;
-use motion_lab_core::random::Seed;
-use motion_lab_core::sensors::RangeSensor;
-use motion_lab_core::worlds::{World, WorldError};
 use motion_lab_sim::capture::RunFigure;
-use motion_lab_sim::recording::{Recorder, RunError, Verification, verify};
-use motion_lab_sim::run::{Difference, Log, LogError, LogKind, LogWriter, Recipe, RunDigest, Script, ScriptError};
-use motion_lab_sim::tour::TourConfig;
+use motion_lab_sim::recording::{Recorder, RunError, RunParts, TickDigests, Verification, verify};
+use motion_lab_sim::run::{Difference, Log, LogError, LogKind, LogWriter, Recipe, RunDigest};
 
-/// The parts of a run, as JSON. A page keeps them so that it can record the run again when the lab has stopped.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RunParts {
-    /// The seed, in decimal.
-    pub seed: String,
-    /// World files.
-    pub worlds: Vec<String>,
-    /// The input script.
-    pub script: String,
-    /// The number of ticks. Input after them is left out.
-    pub ticks: u64,
-    /// The rays and the range of the range sensor, metres.
-    pub sensor: Option<(u32, f64)>,
-}
-
-impl RunParts {
-    /// The parts of a run of no ticks yet.
-    #[cfg(feature = "web")]
-    pub fn of(recipe: &Recipe) -> Self {
-        let Recipe { seed, config, script } = recipe;
-        RunParts {
-            seed: seed.to_string(),
-            worlds: config.worlds.iter().map(World::to_ron).collect(),
-            script: script.to_ron(),
-            ticks: 0,
-            sensor: config.sensor.map(|s| (s.n_rays, s.max_range)),
-        }
-    }
-
-    fn recipe(&self) -> Result<Recipe, PartsError> {
-        let seed = self.seed.parse().map_err(|_| PartsError::Seed(self.seed.clone()))?;
-        let parse = |text: &String| World::parse_recorded("the world", text);
-        let worlds = self.worlds.iter().map(parse).collect::<Result<_, _>>()?;
-        let mut script = Script::parse("the script", &self.script)?;
-        script.truncate_after(self.ticks);
-        let sensor = self.sensor.map(|(n_rays, max_range)| RangeSensor { n_rays, max_range });
-        Ok(Recipe::new(TourConfig { worlds, ticks: self.ticks, sensor }, (Seed(seed), script)))
-    }
-}
-
-/// Why the parts of a run make none.
+/// Why no log came of a run.
 #[derive(Debug, thiserror::Error)]
-enum PartsError {
-    /// Not a number from 0 to 2^64 - 1.
-    #[error("{0}: not a seed")]
-    Seed(String),
-    /// A world file that is refused.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// A script that is refused.
-    #[error(transparent)]
-    Script(#[from] ScriptError),
+enum RecordError {
     /// The run cannot start.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -90,7 +37,7 @@ struct RunCheck {
 }
 
 /// The bytes of a run's log.
-fn written(recipe: &Recipe, kind: LogKind) -> Result<Vec<u8>, PartsError> {
+fn written(recipe: &Recipe, kind: LogKind) -> Result<Vec<u8>, RecordError> {
     let mut run = Recorder::of(recipe)?.without_keyframes();
     let mut writer = LogWriter::new(Vec::new(), recipe, kind, run.frame())?;
     for _ in 0..recipe.config.ticks {
@@ -139,6 +86,19 @@ pub fn record_link(query: &str) -> Result<Vec<u8>, JsError> {
     // what comes later is no part of the run up to the link's tick
     recipe.script.truncate_after(recipe.config.ticks);
     written(&recipe, LogKind::Digests).map_err(error)
+}
+
+/// The digests of a run from its parts, for comparing builds: one a line, from tick 0 on, then the run's own, then that
+/// of them all ([`TickDigests`]).
+///
+/// # Errors
+/// The reason, when a part is refused.
+#[wasm_bindgen]
+pub fn tick_digests(parts: &str) -> Result<String, JsError> {
+    let mut digests = TickDigests::of(&recipe_of(parts)?).map_err(error)?;
+    let mut lines: Vec<String> = digests.by_ref().map(|digest| digest.to_string()).collect();
+    lines.extend([digests.run(), digests.digest()].map(|digest| digest.to_string()));
+    Ok(lines.join("\n"))
 }
 
 /// Simulates a log's run again from its seed, configuration and script, and compares every frame to the last bit, or

@@ -63,3 +63,64 @@ fn a_count_that_fails_fails_the_counts() {
         assert!(output.status.code() == Some(1) && said.contains(reason), "{reason}: {:?} {said}", output.status);
     }
 }
+
+/// Runs `tests/all/determinism` with a cargo that builds nothing, and with programs that print these lines for runs:
+/// the debug build's, and the optimised one's. The optimised program's ticks differ from the third on.
+fn compared(debug: &str, release: &str) -> Output {
+    let folder = tempfile::tempdir().unwrap();
+    let target = folder.path();
+    program(target, "cargo", "exit 0");
+    program(target, "faketime", "exit 1");
+    for (build, lines, ticks) in [("debug", debug, "01234"), ("release", release, "01534")] {
+        fs::create_dir(target.join(build)).unwrap();
+        let names = lines.lines().map(|line| line.split(' ').next().unwrap()).collect::<Vec<_>>().join("\\tx\\n");
+        let ticks = ticks.chars().map(|c| c.to_string().repeat(32)).collect::<Vec<_>>().join("\\n");
+        let text = format!(
+            "case $1 in runs) printf '%s\\n' '{lines}' ;; ticks) printf '{ticks}\\n' ;; shrink) echo \"shrunk by: $5\" ;; \
+             parts) printf '{names}\\tx\\n' ;; esac"
+        );
+        program(&target.join(build), "determinism", &text);
+    }
+    Command::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/all/determinism"))
+        .args(["--seeds", "1", "release"])
+        .env("PATH", format!("{}:{}", target.display(), std::env::var("PATH").unwrap()))
+        .env("CARGO_TARGET_DIR", target)
+        .env_remove("MOTION_LAB_BUILD")
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn builds_that_differ_are_named_with_run_and_tick_and_shrunk() {
+    let released = include_str!("../determinism/released.txt");
+    let pinned = released.lines().filter(|line| !line.starts_with('#')).map(|line| {
+        let [_, run, digest] = line.split(' ').collect::<Vec<_>>()[..] else { panic!("{line}") };
+        format!("{run} 9 {digest} all-{run}\n")
+    });
+    let pinned: String = pinned.collect();
+    assert!(pinned.lines().count() >= 5, "{pinned}");
+    let said = |output: &Output| String::from_utf8_lossy(&output.stdout).into_owned();
+
+    let runs = format!("{pinned}swarm-1 4 a b");
+    let same = compared(&runs, &runs);
+    assert!(
+        same.status.success() && said(&same).contains("1 configurations compared with the debug build, 0 failures")
+    );
+
+    let differing = compared(&runs, &format!("{pinned}swarm-1 4 a c"));
+    assert_eq!(differing.status.code(), Some(1));
+    for part in [
+        "release: 1 runs differ, first swarm-1\n",
+        "release, swarm-1: the first tick that differs is 2\n",
+        "/release/determinism digests\n",
+        "1 configurations compared with the debug build, 1 failures",
+    ] {
+        assert!(said(&differing).contains(part), "{part}: {}", said(&differing));
+    }
+
+    // both builds agree, and no longer with what was released
+    let changed = runs.replace("pin-tour 9 f7", "pin-tour 9 07");
+    let changed = compared(&changed, &changed);
+    assert_eq!(changed.status.code(), Some(1));
+    assert!(said(&changed).contains("pin-tour no longer gives f7"), "{}", said(&changed));
+}

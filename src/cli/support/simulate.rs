@@ -34,13 +34,17 @@ pub fn refused(error: &RunError) -> Failure {
     Failure::input(error, advice(error))
 }
 
-/// The run of a recipe at tick 0, which only goes ahead.
-pub fn begin(recipe: &Recipe) -> Result<Recorder, Failure> {
-    let run = Recorder::of(recipe).map_err(|error| match error {
+/// The failure of a recipe's run that cannot start; where its script does not fit, with the robots that there are.
+pub fn unstarted(error: RunError, recipe: &Recipe) -> Failure {
+    match error {
         RunError::Spawn(SpawnError::Script(problem)) => unfit(problem, &recipe.config),
         error => refused(&error),
-    })?;
-    Ok(run.without_keyframes())
+    }
+}
+
+/// The run of a recipe at tick 0, which only goes ahead.
+pub fn begin(recipe: &Recipe) -> Result<Recorder, Failure> {
+    Ok(Recorder::of(recipe).map_err(|error| unstarted(error, recipe))?.without_keyframes())
 }
 
 /// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].

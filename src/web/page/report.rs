@@ -8,13 +8,13 @@ use serde_json::{Value, json};
 
 use super::listener::tell;
 use crate::web::mirror::mirror;
-use crate::web::runs::RunParts;
 use crate::window::for_page::{Interface, ShownDashboard};
 use crate::window::ui::{AtlasState, LessonState, PlanState, Settings, ShownChance};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, Theme, readout};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::manifest::{ThemeChoice, Widget};
+use motion_lab_sim::recording::RunParts;
 use motion_lab_sim::run::Recipe;
 use motion_lab_sim::simulation::{Playback, Transport, recipe};
 
@@ -99,7 +99,7 @@ pub fn report(world: &mut World) {
         let present = recipe(world);
         // a new tick alone is not sent: the page knows it from the state
         if let Some(present) = present.filter(|present| sent.run.as_ref() != Some(present)) {
-            tell(&json!({ "kind": "run", "parts": RunParts::of(&present) }));
+            tell(&json!({ "kind": "run", "parts": RunParts { ticks: 0, ..RunParts::of(&present) } }));
             sent.run = Some(present);
         }
     }

@@ -79,3 +79,14 @@ fn refused_inputs_are_counted_and_the_first_one_explained() {
         many.err
     );
 }
+
+#[test]
+fn paranoid_runs_each_tick_twice_and_then_records_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = ["record", "--script", SCRIPT, "--ticks", "240", "--json"];
+    let twice = run_in(folder.path(), &[&plain[..], &["--paranoid"]].concat());
+    assert_eq!(twice.code, Some(0), "{}", twice.err);
+    assert!(twice.err.contains("240 ticks, each run twice: the same to the last bit"), "{}", twice.err);
+    assert_eq!(twice.out, run_in(folder.path(), &plain).done());
+    run_in(folder.path(), &["record", "--paranoid", "--seeds", "1..3"]).failed(2);
+}

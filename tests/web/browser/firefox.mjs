@@ -1,11 +1,12 @@
 // The site in Firefox, driven by WebDriver BiDi: see the script `firefox`.
 import { spawn } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { serve } from "../../../assets/web/serve.mjs";
+import { lines } from "../../determinism/lines.cjs";
 
-const k = Number(process.argv[2]);
+const runs = readFileSync(0, "utf8").split("\n").filter(Boolean).map((run) => run.split("\t"));
 const profile = mkdtempSync(join(tmpdir(), "motion-lab-firefox-"));
 // software rendering is on Firefox's list of what WebGL 2 is not for
 writeFileSync(join(profile, "user.js"), 'user_pref("webgl.force-enabled", true);\nuser_pref("app.update.enabled", false);\n');
@@ -59,20 +60,18 @@ try {
   const files = /id="files">(.*?)<\/script>/s.exec(await (await fetch(`${origin}/index.html`)).text())[1];
   const { light, lightWasm } = JSON.parse(files);
   const digests = ask(
-    async (script, wasm, most) => {
+    async (script, wasm, parts) => {
       const element = document.createElement("script");
       element.src = script;
       await new Promise((done) => ((element.onload = done), document.head.append(element)));
       await wasm_bindgen({ module_or_path: wasm });
-      const found = [];
-      for (let seed = 0n; seed < BigInt(most); seed++) for (const world of wasm_bindgen.identity_worlds()) found.push(wasm_bindgen.identity_line(seed, world));
-      return found.join("\n");
+      return JSON.stringify(parts.map((run) => wasm_bindgen.tick_digests(run)));
     },
     `/${light}`,
     `/${lightWasm}`,
-    k,
+    runs.map(([, parts]) => parts),
   );
-  console.log(await within(300000, "the digests", digests));
+  JSON.parse(await within(300000, "the digests", digests)).forEach((digests, i) => console.log(lines(runs[i][0], digests)));
 
   // the lab itself: it draws, and comes to the run of the simulator alone
   const link = "seed=7&tick=100";

@@ -13,15 +13,19 @@
 
 mod final_lines;
 mod frame_list;
-mod identity;
+mod paranoid;
 mod recorder;
 mod run;
+mod run_parts;
+mod tick_digests;
 mod verification;
 
 pub use crate::run::RunInput;
 pub use final_lines::{final_lines, final_lines_with, printed_as, printed_configuration};
 pub use frame_list::{FrameList, FramesError, MAX_FRAME_BYTES};
-pub use identity::identity_line;
+pub use paranoid::{ParanoidRun, UnrepeatedControl, UnrepeatedTick};
 pub use recorder::{Recorder, RunError};
 pub use run::Run;
+pub use run_parts::{PartsError, RunParts};
+pub use tick_digests::TickDigests;
 pub use verification::{Verification, verify, verify_with_robots};

@@ -8,9 +8,9 @@ use bevy::ecs::world::World;
 use super::frame_list::{FrameList, FramesError};
 use crate::run::{Event, Frame, Log, Recipe, RobotInput, RunInput, Script, WorldChange};
 use crate::simulation::{
-    CommandError, Keyframes, Later, LatestFrame, PendingInput, Refusals, RestoreError, RobotCommand, RobotView, Roster,
-    RunConfig, SensorView, SimulationPlugin, SpawnError, StandingWorld, Transport, WorldCommand, give_change,
-    give_input, restore, seek, sensors, start_recipe, step_alone, view,
+    CommandError, Keyframes, Later, LatestFrame, PendingInput, PhaseState, PhaseStates, Refusals, RestoreError,
+    RobotCommand, RobotView, Roster, RunConfig, SensorView, SimulationPlugin, SpawnError, StandingWorld, Transport,
+    WorldCommand, give_change, give_input, restore, seek, sensors, start_recipe, step_alone, view,
 };
 use crate::tour::TourConfig;
 use motion_lab_core::worlds::World as WorldModel;
@@ -252,6 +252,11 @@ impl Recorder {
     pub fn standing_worlds(&self) -> Vec<Arc<WorldModel>> {
         let worlds = self.world.get_resource::<Roster>().map_or(&[][..], Roster::worlds);
         worlds.iter().filter_map(|&w| Some(Arc::clone(&self.world.get::<StandingWorld>(w)?.0))).collect()
+    }
+
+    /// What stood after the phases of the last tick, of a run that keeps it.
+    pub(super) fn take_phases(&mut self) -> Vec<PhaseState> {
+        self.world.get_resource_mut::<PhaseStates>().map_or_else(Vec::new, |mut kept| std::mem::take(&mut kept.0))
     }
 
     /// The Bevy world that the run lives in.

@@ -72,6 +72,7 @@ pub use tick::drive::StandingRobots;
 pub use tick::hold::{Advance, HOLD_CLEARANCE, MARGIN, MIN_CLEARANCE, advance, margin_from};
 pub use tick::input::{PendingInput, RobotCommand};
 pub(crate) use tick::parallel::each;
+pub(crate) use tick::phase_states::{PhaseState, PhaseStates, watch_phases};
 pub use tick::refusals::{Refusals, RefusedEvent, RefusedInput};
 pub use tick::settle::FLASH_TICKS;
 pub use transport::{Playback, Transport, TransportCommand};

@@ -14,19 +14,19 @@
 //! No digest here may be replaced to make a test pass.
 
 mod app;
+pub mod recipes;
 
 use bevy::app::App;
 use motion_lab_core::prelude::*;
-use motion_lab_core::sensors::RangeSensor;
 use motion_lab_sim::recording::{Recorder, Run};
-use motion_lab_sim::run::{Digest, Frame, Log, Recipe, RobotInput, Script};
+use motion_lab_sim::run::{Digest, Frame, Log, LogKind, Recipe, RobotInput};
 use motion_lab_sim::simulation::{
     LatestFrame, PendingInput, RobotCommand, RunCommand, SimulationPlugin, TransportCommand, start_run,
 };
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 use xxhash_rust::xxh3::xxh3_128;
 
-use crate::simulator::{event, quantized, script};
+use crate::simulator::quantized;
 
 /// A run with its name, the digest of its frames, and the run digest.
 type Pin = (&'static str, fn() -> Log, &'static str, &'static str);
@@ -49,58 +49,29 @@ fn frames_digest(log: &Log) -> Digest {
     Digest(xxh3_128(&bytes))
 }
 
-/// The 60 s tour of the three worlds at the book's seed.
+/// The log of a recipe's run.
+fn recorded(recipe: Recipe) -> Log {
+    Run::record_recipe(recipe, LogKind::Frames, |_| {}).unwrap()
+}
+
 fn tour() -> Log {
-    Run::record(TourConfig::default(), BOOK_SEED).unwrap()
+    recorded(recipes::tour())
 }
 
-/// A minute of driving by hand: walls hit, refusals, the tours taken over and given back.
 fn driving() -> Log {
-    let script = Script::parse("driving.ron", include_str!("../../../../tests/scripts/driving.ron")).unwrap();
-    Run::record(TourConfig::default(), (BOOK_SEED, script)).unwrap()
+    recorded(recipes::driving())
 }
 
-/// Eight robots of every kind among all kinds of obstacles. They scan, and some are driven into one another.
 fn eight() -> Log {
-    let world = World::parse("eight.ron", include_str!("../../../../tests/samples/eight.ron")).unwrap();
-    let sensor = Some(RangeSensor { n_rays: 90, max_range: 6.0 });
-    let script = script(vec![
-        event(1, "Anna", RobotInput::Drive(96, -10)),
-        event(1, "Bert", RobotInput::Drive(128, 20)),
-        event(1, "Finn", RobotInput::Drive(-64, 90)),
-        event(1, "Dora", RobotInput::Drive(100, 40)),
-        event(20, "Gina", RobotInput::Drive(128, 0)),
-        event(30, "Hugo", RobotInput::Drive(-128, -33)),
-        event(60, "Cleo", RobotInput::MoveTo(quantized(&[1.5, -0.75]))),
-        event(90, "Emil", RobotInput::MoveTo(quantized(&[-1.25, 0.5, 2.0]))),
-        event(120, "Bert", RobotInput::Drive(-128, -60)),
-        event(150, "Anna", RobotInput::Release),
-        event(180, "Finn", RobotInput::Drive(128, 0)),
-    ]);
-    Run::record(TourConfig { worlds: vec![world], ticks: 400, sensor }, (Seed(8), script)).unwrap()
+    recorded(recipes::eight())
 }
 
-/// Rusty's tour with a range sensor that misreads in every way of the beam model.
 fn noisy() -> Log {
-    let sensor = "sigma_hit: 0.05, z_short: 0.15, lambda_short: 0.8, z_miss: 0.05, z_max: 0.04, z_rand: 0.1";
-    let world = crate::sensors::sensor_noise::noisy_apartment(sensor);
-    let sensor = Some(RangeSensor { n_rays: 60, max_range: 4.0 });
-    Run::record(TourConfig { worlds: vec![world], ticks: 300, sensor }, Seed(7)).unwrap()
+    recorded(recipes::noisy())
 }
 
-/// The trailer put on, pulled and taken off, and all three robots put elsewhere at tick 100.
 fn trailer() -> Log {
-    let script = script(vec![
-        event(5, "Hitch", RobotInput::SetTrailer(true)),
-        event(6, "Hitch", RobotInput::Drive(80, 48)),
-        event(60, "Hitch", RobotInput::Drive(-64, -20)),
-        event(100, "Hitch", RobotInput::Teleport(quantized(&[5.5, 2.25, -0.0625, 0.125]))),
-        event(100, "Rusty", RobotInput::Teleport(quantized(&[6.0, 4.0, 1.0]))),
-        event(100, "Reach", RobotInput::Teleport(quantized(&[-1.0, 0.5]))),
-        event(140, "Hitch", RobotInput::SetTrailer(false)),
-        event(150, "Hitch", RobotInput::Release),
-    ]);
-    Run::record(TourConfig { ticks: 240, ..TourConfig::default() }, (Seed(11), script)).unwrap()
+    recorded(recipes::trailer())
 }
 
 /// A run driven live to tick 160, taken back to tick 100 and driven otherwise from there to tick 220.

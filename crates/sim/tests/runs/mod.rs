@@ -10,6 +10,7 @@ mod keyframes;
 mod lengths;
 mod live;
 mod many_worlds;
+mod paranoid;
 mod replicas;
 mod send_sync;
 mod sizes;

@@ -1,5 +1,6 @@
 //! The noisy range sensor of a world file: recorded, replayed, and distributed as the beam model says.
 
+use crate::pins::recipes::noisy_apartment;
 use crate::sensors::noise_streams::slips;
 use motion_lab_core::num::exp;
 use motion_lab_core::prelude::*;
@@ -12,14 +13,6 @@ use motion_lab_sim::tour::TourConfig;
 
 /// A sensor with 60 rays of 4 m.
 const R: f64 = 4.0;
-
-/// The Apartment's file with this sensor written into it.
-pub fn noisy_apartment(sensor: &str) -> World {
-    let text = World::apartment().to_ron();
-    let (before, after) = text.split_once("kind: \"rusty\", start: [2.25, 6.25, 0.0]").expect("Rusty in room A");
-    let text = format!("{before}kind: \"rusty\", start: [2.25, 6.25, 0.0], sensor: ({sensor}){after}");
-    World::parse("noisy.ron", &text).unwrap()
-}
 
 fn config(world: World, ticks: u64) -> TourConfig {
     TourConfig { worlds: vec![world], ticks, sensor: Some(RangeSensor { n_rays: 60, max_range: R }) }

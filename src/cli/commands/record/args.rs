@@ -51,6 +51,11 @@ pub struct RecordArgs {
     /// and the first one's reason is said.
     #[arg(long)]
     pub(super) strict: bool,
+    /// First run it with each tick saved, stepped, restored, stepped again and compared; where a tick comes out
+    /// otherwise the second time, say the phase, the robot, the value and its bits, and record nothing. It takes three
+    /// times as long.
+    #[arg(long, conflicts_with_all = ["seeds", "resume"])]
+    pub(super) paranoid: bool,
     /// The range sensor's number of rays, 1 to 100000.
     #[arg(long)]
     pub(super) rays: Option<u32>,

@@ -5,6 +5,7 @@ mod choice;
 mod log_names;
 mod many;
 mod one;
+mod paranoid;
 mod resume;
 mod seeds;
 mod setup;
@@ -39,6 +40,11 @@ impl RecordArgs {
         let recipe = Recipe::new(config, (setup::seed(&self), script));
         if let Some(seeds) = self.seeds {
             return many::record(&self, seeds, &recipe, data);
+        }
+        if self.paranoid
+            && let Some(ended) = paranoid::check(&recipe)?
+        {
+            return Ok(ended);
         }
         let kind = self.kind(&recipe.config);
         let target = self.output.as_deref().map(Target::log).transpose()?;

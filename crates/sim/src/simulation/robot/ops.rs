@@ -13,8 +13,8 @@ use crate::simulation::past::trail::Gauges;
 use crate::simulation::tick::swept_set::{CoveredSet, CutMotion};
 use crate::simulation::truth::last_values::{self, FollowedValues, LastValues};
 use crate::simulation::{
-    Configuration, Contacts, Cut, DrawnTour, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn, RobotId,
-    RobotModel, RobotName, RobotView, SimulatedRobot, SimulatedWorld, TickMotion, WorldScene,
+    Configuration, Contacts, Control, Cut, DrawnTour, DriveMode, Extra, OwnState, PreviousConfiguration, ResidesIn,
+    RobotId, RobotModel, RobotName, RobotView, SimulatedRobot, SimulatedWorld, TickMotion, WorldScene,
 };
 use motion_lab_core::collision::Surroundings;
 use motion_lab_core::configuration::{Configuration as _, Coordinates};
@@ -40,6 +40,8 @@ pub struct RobotOps {
     /// Whether a run that has a sensor of its own gives the robot one.
     pub(crate) senses: fn(&World, Entity) -> bool,
     pub(crate) encode: fn(&World, Entity) -> Option<RobotState>,
+    /// The tick's control, as it prints: in full, so that equal texts are equal controls.
+    pub(crate) control: fn(&World, Entity) -> Option<String>,
     /// Overwrites the robot's components by a state. `None`, with nothing changed, when the state does not fit the
     /// robot.
     pub(crate) decode: fn(&mut World, Entity, &RobotState) -> Option<()>,
@@ -63,6 +65,7 @@ impl RobotOps {
             with_sweep: with_sweep::<R>,
             senses: senses::<R>,
             encode: encode::<R>,
+            control: control::<R>,
             decode: decode::<R>,
             put_back: last_values::put_back::<R>,
             follow: last_values::follow::<R>,
@@ -134,6 +137,10 @@ fn encode<R: SimulatedRobot>(world: &World, e: Entity) -> Option<RobotState> {
     let (mode, contacts) = (world.get::<DriveMode<R>>(e)?, world.get::<Contacts<R>>(e)?);
     let own = world.get::<OwnState<R>>(e)?;
     Some(state_of(*world.get::<RobotId>(e)?, &world.get::<Configuration<R>>(e)?.0, own, mode, contacts))
+}
+
+fn control<R: SimulatedRobot>(world: &World, e: Entity) -> Option<String> {
+    Some(format!("{:?}", world.get::<Control<R>>(e)?.0))
 }
 
 /// The state of a robot with these components.

@@ -5,6 +5,7 @@ pub(crate) mod drive;
 pub(crate) mod hold;
 pub(crate) mod input;
 pub(crate) mod parallel;
+pub(crate) mod phase_states;
 pub(crate) mod refusals;
 pub(crate) mod sense;
 pub(crate) mod settle;
