@@ -1,5 +1,6 @@
 //! Plans, points, rows and parts.
 
+mod by_log;
 mod files;
 mod problems;
 mod rows;

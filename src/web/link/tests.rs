@@ -1,5 +1,7 @@
 //! Links read back as written, whatever is in them; hostile ones are refused by name.
 
+mod digits;
+
 use percent_encoding::utf8_percent_encode;
 
 use super::cited::requoted;

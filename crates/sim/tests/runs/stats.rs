@@ -93,6 +93,12 @@ fn a_teleport_is_no_path_and_a_refused_one_does_not_hide_any() {
     let refused = stats(&log_of(square("hitch", &[0.0; 3]), 20, script(events)));
     assert_close(refused.path_length.unwrap(), 1.5);
     assert_eq!(refused.refusals, 20);
+    // onto the wall and elsewhere in one tick, in either order: it is put once and refuses once
+    for [one, other] in [[HALF, 3.0], [3.0, HALF]] {
+        let both = script(vec![drive(1, 0, 0), put(4, one), put(4, other), put(6, HALF)]);
+        let both = stats(&log_of(square("hitch", &[0.0; 3]), 10, both));
+        assert_eq!((both.path_length, both.refusals), (Some(0.0), 2));
+    }
 }
 
 #[test]

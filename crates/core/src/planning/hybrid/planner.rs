@@ -35,6 +35,8 @@ pub struct HybridAStar {
     /// The least cost at which each cell was reached.
     cells: BTreeMap<StateCell, f64>,
     closed: BTreeMap<StateCell, usize>,
+    /// The node at which the path ends, once there is one; it need not be the last one added.
+    end: usize,
 }
 
 /// The problem with the region of the settings about its goal.
@@ -73,6 +75,7 @@ impl HybridAStar {
             open: BinaryHeap::new(),
             cells: BTreeMap::new(),
             closed: BTreeMap::new(),
+            end: 0,
             search: Search::of_motions(problem),
         };
         let start = planner.search.problem.start();
@@ -91,11 +94,10 @@ impl HybridAStar {
 
     /// The moves of the path, as the simulator can drive them; none while there is no path.
     pub fn moves(&self) -> Vec<CarMove> {
-        let last = self.search.growth.nodes().len() - 1;
         if self.search.progress() != Progress::Solved {
             return Vec::new();
         }
-        self.search.growth.branch(last).into_iter().filter_map(|node| self.reached[node].by).collect()
+        self.search.growth.branch(self.end).into_iter().filter_map(|node| self.reached[node].by).collect()
     }
 
     fn car(&self) -> &Hitch {
@@ -233,9 +235,11 @@ impl Planner<Hitch, HitchArc> for HybridAStar {
             return;
         };
         let is_goal = self.search.problem.is_goal(&self.search.at(node));
-        let last = if is_goal { Some(node) } else { self.shoot(node) };
-        let motions = last.and_then(|last| self.motions_to(last));
-        if !motions.is_some_and(|motions| self.search.take_motions(motions)) {
+        let end = if is_goal { Some(node) } else { self.shoot(node) };
+        let motions = end.and_then(|end| self.motions_to(end));
+        if motions.is_some_and(|motions| self.search.take_motions(motions)) {
+            self.end = end.unwrap_or(node);
+        } else {
             self.expand(node);
         }
     }
@@ -244,5 +248,114 @@ impl Planner<Hitch, HitchArc> for HybridAStar {
         let node = self.search.growth.nodes().get(to)?;
         let by = self.reached[to].by.filter(|_| node.parent == Some(from))?;
         by.drive(self.car(), &self.search.at(from)).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::FRAC_PI_2;
+
+    use super::*;
+    use crate::collision::{Checker, Scene};
+    use crate::geometry::{Point2, Pose2, Segment};
+    use crate::num::{cos, hypot, sin};
+    use crate::random::Seed;
+    use crate::robots::HITCH;
+
+    /// Planners whose costs all differ from one another: they park a car with a trailer or without in the Lot, or look
+    /// for a goal behind a wall, which they never reach.
+    fn planners() -> Vec<HybridAStar> {
+        let wall = |x0, y0, x1, y1| Segment::new(Point2::new(x0, y0), Point2::new(x1, y1));
+        let parted = Scene::of_walls(&[
+            wall(0.0, 0.0, 40.0, 0.0),
+            wall(40.0, 0.0, 40.0, 20.0),
+            wall(40.0, 20.0, 0.0, 20.0),
+            wall(0.0, 20.0, 0.0, 0.0),
+            wall(25.0, 0.0, 25.0, 20.0),
+        ]);
+        let planner = |(trailer, scene, [x0, y0], [x1, y1, theta1]): (bool, Scene, [f64; 2], [f64; 3])| {
+            let car = if trailer { HITCH.with_trailer() } else { HITCH };
+            let at = |x, y, theta| HitchCfg { body: Pose2::new(x, y, theta), trailer: trailer.then_some(theta) };
+            let problem = Problem::try_new(Checker::new(scene, car), at(x0, y0, 0.0), at(x1, y1, theta1), Seed(1));
+            let settings =
+                HybridSettings { reversal: 0.7, back: 0.45, fold: 0.6, greed: 1.7, ..HybridSettings::default() };
+            HybridAStar::with_settings(problem.unwrap(), settings)
+        };
+        let parking = [false, true].map(|trailer| (trailer, Scene::lot(), [6.5, 2.5], [6.75, 7.0, -FRAC_PI_2]));
+        let parted = [false, true].map(|trailer| (trailer, parted.clone(), [10.0, 10.0], [32.0, 12.0, 0.0]));
+        parking.into_iter().chain(parted).map(planner).collect()
+    }
+
+    /// The length of an arc by its chords, metres, and whether it leads back.
+    fn driven(arc: &HitchArc) -> (f64, bool) {
+        let places: Vec<Pose2> = (0..=200).map(|k| arc.at(f64::from(k) / 200.0).body).collect();
+        let chord = |ends: &[Pose2]| hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
+        let [from, to] = [places[0], places[1]];
+        let ahead = (to.x - from.x) * cos(from.theta) + (to.y - from.y) * sin(from.theta);
+        (places.windows(2).map(chord).sum(), ahead < 0.0)
+    }
+
+    #[test]
+    fn every_way_costs_its_length_its_stretches_back_its_reversals_and_its_folds() {
+        let (mut count, mut reversals, mut shots) = (0, 0, 0);
+        for mut planner in planners() {
+            let is_solved = (0..300).any(|_| planner.step() == Progress::Solved);
+            let HybridSettings { reversal, back, fold, .. } = planner.settings;
+            // what each node's way costs, and whether it ends with a stretch back
+            let mut ways: Vec<(f64, Option<bool>)> = vec![(0.0, None)];
+            for (node, Arrival { cost, .. }) in planner.reached.iter().enumerate().skip(1) {
+                let from = planner.search.growth.nodes()[node].parent.unwrap();
+                let arc = planner.motion(from, node).unwrap();
+                let ((length, is_back), end, (before, was_back)) = (driven(&arc), arc.at(1.0), ways[from]);
+                let angle = end.trailer.map_or(0.0, |psi| wrap(end.body.theta - psi).abs());
+                let turns = was_back.is_some_and(|was_back| was_back != is_back);
+                let mut expected = before + length + fold * angle * length;
+                expected += if is_back { back * length } else { 0.0 };
+                expected += if turns { reversal } else { 0.0 };
+                assert!((cost - expected).abs() < 1e-5, "{cost}, not {expected}, at node {node} from {from}");
+                reversals += u32::from(turns);
+                ways.push((expected, Some(is_back)));
+            }
+            (count, shots) = (count + ways.len(), shots + u32::from(is_solved));
+        }
+        assert!(count > 500 && reversals > 50 && shots > 1, "{count} ways, {reversals} reversals, {shots} solved");
+    }
+
+    #[test]
+    fn the_cheapest_open_way_is_followed_and_a_cell_is_reached_again_only_for_less() {
+        let (mut compared, mut cheaper) = (0, 0);
+        for mut planner in planners() {
+            // each node's cost with the greed's share of what remains
+            let mut worth: Vec<f64> = Vec::new();
+            for _ in 0..200 {
+                let known = planner.reached.len();
+                for node in worth.len()..known {
+                    let remaining = planner.remaining.at(&planner.search.at(node).body);
+                    worth.push(planner.reached[node].cost + 1.7 * remaining);
+                }
+                let closed = planner.closed.clone();
+                let progress = planner.step();
+                let fresh = planner.closed.iter().filter(|(cell, _)| !closed.contains_key(*cell));
+                let [next] = fresh.map(|(_, node)| *node).collect::<Vec<_>>()[..] else {
+                    panic!("an iteration expands one configuration")
+                };
+                for other in (0..known).filter(|node| !closed.contains_key(&planner.reached[*node].cell)) {
+                    assert!(worth[next] <= worth[other], "{next} is followed before {other}");
+                    compared += 1;
+                }
+                if progress != Progress::Growing {
+                    break;
+                }
+                for node in known..planner.reached.len() {
+                    let Arrival { cost, cell, .. } = planner.reached[node];
+                    assert!(!closed.contains_key(&cell), "{node} is in a cell that is done with");
+                    for other in planner.reached[..node].iter().filter(|other| other.cell == cell) {
+                        assert!(cost < other.cost, "{node} costs {cost}, and its cell was reached for {}", other.cost);
+                        cheaper += 1;
+                    }
+                }
+            }
+        }
+        assert!(compared > 10_000 && cheaper > 5, "{compared} comparisons, {cheaper} cells reached for less");
     }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::*;
-use crate::collision::{Checker, Collision, Problem, Scene};
+use crate::collision::{Checker, Collision, GoalRegion, Problem, Scene};
 use crate::configuration::HitchCfg;
 use crate::geometry::{Point2, Pose2, Segment};
 use crate::num::{hypot, wrap};
@@ -87,6 +87,32 @@ fn a_car_parks_in_every_bay_and_turns_among_walls() {
     let mut planner = HybridAStar::new(problem.clone());
     let path = solve(&mut planner, &Bounds::default()).unwrap();
     check(&problem, &planner, &path);
+}
+
+/// All places from a line on, whatever the headings.
+#[derive(Debug)]
+struct EastOf(f64);
+
+impl GoalRegion<HitchCfg> for EastOf {
+    fn contains(&self, q: &HitchCfg) -> bool {
+        q.body.x >= self.0
+    }
+}
+
+/// The goal itself lies behind a wall, so that no shot leads to it; its region begins before the wall.
+#[test]
+fn the_moves_of_a_path_that_ends_in_a_region_are_those_of_the_path() {
+    let wall = |x0, y0, x1, y1| Segment::new(Point2::new(x0, y0), Point2::new(x1, y1));
+    let walls = [wall(0.0, 0.0, 30.0, 0.0), wall(0.0, 12.0, 30.0, 12.0), wall(20.0, 0.0, 20.0, 12.0)];
+    for x in [4.0, 6.0, 9.5, 14.0] {
+        let problem = problem(Scene::of_walls(&walls), HITCH, [3.0, 6.0, 0.1, 0.0], [24.0, 6.0, 0.0, 0.0]);
+        let problem = problem.try_with_region(std::sync::Arc::new(EastOf(x))).unwrap();
+        let mut planner = HybridAStar::new(problem.clone());
+        let path = solve(&mut planner, &Bounds::default()).unwrap();
+        let ends = |q, m: CarMove| m.drive(&HITCH, &q).unwrap().at(1.0);
+        assert_eq!(planner.moves().into_iter().fold(problem.start(), ends), path.goal(), "from {x} m on");
+        assert!(path.goal().body.x >= x && planner.moves().len() == path.legs().len());
+    }
 }
 
 #[test]

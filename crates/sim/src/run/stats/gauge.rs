@@ -1,9 +1,9 @@
 //! `Gauge`, which measures the robots of a run frame by frame: where they are, how far they went, how near things are.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::standing::StandingScenes;
-use crate::run::{Frame, RobotInput, RobotState, Script};
+use crate::run::{Frame, Quantized, RobotInput, RobotState, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::collision::Collision;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration as _, Kinds, RobotKind};
@@ -58,6 +58,15 @@ impl PathPosition {
             _ => None,
         }
     }
+
+    /// The distance to another place, metres.
+    fn distance(self, to: PathPosition) -> f64 {
+        let [a, b] = [self, to].map(|place| match place {
+            PathPosition::Body(pose) => pose.position(),
+            PathPosition::Point(point) => point,
+        });
+        hypot(b.x - a.x, b.y - a.y)
+    }
 }
 
 /// Measures the robots of a run frame by frame.
@@ -96,8 +105,12 @@ impl<'a> Gauge<'a> {
         standing.follow(frame);
         let from = script.events.partition_point(|e| e.tick < frame.tick);
         let due = script.events[from..].iter().take_while(|e| e.tick == frame.tick);
-        let teleports = due.filter(|e| matches!(e.input, RobotInput::Teleport(_)));
-        let teleported: BTreeSet<&str> = teleports.map(|e| e.robot.as_str()).collect();
+        let mut teleports: BTreeMap<&str, Vec<&[Quantized]>> = BTreeMap::new();
+        for event in due {
+            if let RobotInput::Teleport(to) = &event.input {
+                teleports.entry(&event.robot).or_default().push(to);
+            }
+        }
         let read = |(measured, state): (&mut GaugedRobot, &RobotState)| {
             let GaugedRobot { resident, world, about, before, refusals } = measured;
             let lab = AnyRobot::sized(&resident.kind, &state.configuration, resident.sizes.as_ref());
@@ -105,10 +118,21 @@ impl<'a> Gauge<'a> {
                 Some((robot, q)) => Some(robot.footprint(q)),
                 None => kinds.footprint(&resident.kind, &state.configuration),
             };
-            let now = place(*about, lab.as_ref(), footprint.as_ref(), state);
-            // a tick in which the robot was put somewhere is no part of its path
-            let was_put = state.refusals == *refusals && teleported.contains(resident.name.as_str());
-            let step = before.zip(now).filter(|_| !was_put).and_then(|(before, now)| before.step(now));
+            let now = place(*about, lab.as_ref(), footprint.as_ref(), &state.configuration);
+            // a tick in which the robot was put somewhere is no part of its path; where it refused some of the tick's
+            // inputs, it was put if it is nearer to where it should have been put than to where it was
+            let all_taken = state.refusals == *refusals;
+            let was_put = |before: PathPosition, now: PathPosition| {
+                let is_near = |to: &&[Quantized]| {
+                    let to: Vec<f64> = to.iter().map(|c| c.value()).collect();
+                    let lab = AnyRobot::sized(&resident.kind, &to, resident.sizes.as_ref());
+                    let to = place(*about, lab.as_ref(), kinds.footprint(&resident.kind, &to).as_ref(), &to);
+                    to.is_some_and(|to| now.distance(to) < now.distance(before))
+                };
+                teleports.get(resident.name.as_str()).is_some_and(|to| all_taken || to.iter().any(is_near))
+            };
+            let both = before.zip(now).filter(|(before, now)| !was_put(*before, *now));
+            let step = both.and_then(|(before, now)| before.step(now));
             (*before, *refusals) = (now, state.refusals);
             let scene = standing.scene(*world).filter(|_| *measures_clearance);
             let clearance = scene.zip(footprint).map(|(scene, footprint)| scene.distance(&footprint));
@@ -122,10 +146,10 @@ fn place(
     about: Option<&RobotKind>,
     lab: Option<&(AnyRobot, AnyConfiguration)>,
     footprint: Option<&Footprint>,
-    state: &RobotState,
+    coordinates: &[f64],
 ) -> Option<PathPosition> {
     if about.is_some_and(|kind| kind.drives) {
-        return Pose2::from_coordinates(state.configuration.get(..3)?).map(PathPosition::Body);
+        return Pose2::from_coordinates(coordinates.get(..3)?).map(PathPosition::Body);
     }
     match lab {
         Some((robot, q)) => Some(PathPosition::Point(robot.reference(q))),

@@ -97,3 +97,57 @@ fn moves(car: &Hitch, leg: usize, arc: &HitchArc) -> Result<Vec<CarMove>, PlayEr
     }
     Ok(CarMove::over(car, control.v * seconds, steering).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_lab_core::geometry::{Footprint, Point2, Pose2};
+    use motion_lab_core::num::{atan2, hypot};
+    use motion_lab_core::random::{Seed, Stream};
+    use motion_lab_core::robots::{CarCmd, Drivable};
+
+    /// How far the corners of each part are from their places in another footprint, at most, metres.
+    fn apart(a: &Footprint, b: &Footprint) -> Vec<f64> {
+        let far = |(p, q): (&Point2, &Point2)| hypot(p.x - q.x, p.y - q.y);
+        let parts = a.parts().iter().zip(b.parts());
+        let corners = parts.map(|(a, b)| a.placed().core().iter().zip(b.placed().core()));
+        corners.map(|pairs| pairs.map(far).fold(0.0, |most, d| greater(d, most))).collect()
+    }
+
+    /// Two arcs over one chord, one to its left and one to its right, as a lens: they are farthest apart in the middle.
+    #[test]
+    fn two_motions_stray_from_one_another_by_no_more_than_at_their_ends_and_by_both_bends() {
+        let mut draws = Stream::new(Seed(9), "lenses");
+        let (mut sharp, mut by_trailers) = (0, 0);
+        for round in 0..200 {
+            let car = if round % 2 == 0 { HITCH } else { HITCH.with_trailer() };
+            let folded = |theta: f64, fold: f64| car.hitch_len.map(|_| theta - fold);
+            let v = draws.uniform(0.5, 1.5) * [1.0, -1.0][round / 2 % 2];
+            let (fold, seconds) = (draws.uniform(-0.9, 0.9), draws.uniform(1.0, 90.0));
+            // the whole turn is small, so that a parabola is as high as the arc
+            let phi = atan2(car.wheelbase * draws.uniform(0.1, 0.7), v.abs() * seconds);
+            let theta = draws.uniform(-3.0, 3.0);
+            let start = HitchCfg { body: Pose2::new(0.0, 0.0, theta), trailer: folded(theta, fold) };
+            let arc = car.drive(&start, &CarCmd { v, phi }, seconds).unwrap();
+            let (from, to) = (draws.uniform(0.0, 0.4), draws.uniform(0.6, 1.0));
+            let [a, b] = [from, to].map(|s| arc.at(s).body);
+            // the same stretch mirrored at its chord
+            let mirrored = 2.0 * atan2(b.y - a.y, b.x - a.x) - a.theta;
+            let begin = HitchCfg { body: Pose2::new(a.x, a.y, mirrored), trailer: folded(mirrored, -fold) };
+            let tick = car.drive(&begin, &CarCmd { v, phi: -phi }, seconds * (to - from)).unwrap();
+            let end = tick.at(1.0).body;
+            assert!(hypot(end.x - b.x, end.y - b.y) < 1e-6, "they meet again");
+            let off = |u: f64| apart(&tick.footprint_at(u), &arc.footprint_at(from + u * (to - from)));
+            let (first, last, bound) = (off(0.0), off(1.0), bends(&tick, &arc, from, to));
+            for k in 1..32 {
+                for (part, off) in off(f64::from(k) / 32.0).into_iter().enumerate() {
+                    let ends = greater(first[part], last[part]);
+                    assert!(off <= ends + bound + 1e-9, "part {part}: {off} m, {ends} m at the ends and {bound} m");
+                    sharp += u32::from(off > ends + 0.6 * bound);
+                    by_trailers += u32::from(part == 1 && off > ends);
+                }
+            }
+        }
+        assert!(sharp > 20 && by_trailers > 20, "{sharp} come near the bound, {by_trailers} of trailers");
+    }
+}
