@@ -21,7 +21,7 @@ const PEN: &str = "World(version: 1, name: \"pen\", bounds: (min: (-8, -8), max:
 const STUDY: &str = "Sweep(version: 1, worlds: [\"pen.ron\"], script: \"a.ron\", ticks: 120,
     goal: (robot: \"Rusty\", at: [-4.2, -5, 0], within: [0.3, 0.3, 0.25]), axes: [
     (vary: \"Rusty.start\", over: Starts([[-5, -5, 0], [-5, -5, -0.2], [-4.25, -5, 0.1], [6, 6, 3.125]])),
-    (vary: \"seed\", over: Range(3, 4)), (vary: \"ticks\", over: Values([70, 120]))])";
+    (vary: \"seed\", over: Range(3, 5)), (vary: \"ticks\", over: Values([70, 120]))])";
 
 /// Inputs of all robots: they drive back and forth and into the wall, are put elsewhere, and refuse some.
 fn script() -> Script {
@@ -114,7 +114,7 @@ fn read(file: &[u8]) -> (Vec<Vec<Logged>>, String) {
                 };
                 frames.push(robots.map(robot).collect());
             }
-            0x82 => digest = record[..16].iter().map(|byte| format!("{byte:02x}")).collect(),
+            0x82 => digest = record[..16].iter().rev().map(|byte| format!("{byte:02x}")).collect(),
             2 => break,
             _ => {}
         }
