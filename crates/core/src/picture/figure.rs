@@ -165,18 +165,16 @@ fn lay_out_panel(panel: &Panel, rect: ScreenRect, entries: &mut Vec<FigureEntry>
     let (right, bottom) = (x + rect.size[0], y + rect.size[1]);
     let frame = vec![vec![[x, y], [right, y], [right, bottom], [x, bottom], [x, y]]];
     entries.push(FigureEntry::Bare(Primitive::Lines { lines: frame, role: Role::Hairline, line: Line::solid(1.0) }));
-    let mut baseline = bottom + LEADING + 2.0;
-    if !panel.heading.is_empty() {
-        entries.push(FigureEntry::Bare(text(x, baseline, &panel.heading, Face::Sans, 14.0, Role::Text)));
-    }
+    let (heading, mut baseline) = (bottom + LEADING + 2.0, bottom + LEADING + 2.0);
     if panel.picture.in_metres {
         let bar = ScaleBar::new(fit.px_per_metre(), 80.0);
+        let beside = estimated_width(&panel.heading, 14.0) + estimated_width(&bar.label, 11.0) + bar.length_px + 12.0;
         // under the heading where the two do not fit side by side
-        let is_narrow =
-            estimated_width(&panel.heading, 14.0) + estimated_width(&bar.label, 11.0) + bar.length_px + 12.0
-                > rect.size[0];
-        baseline += if is_narrow && !panel.heading.is_empty() { LEADING } else { 0.0 };
+        baseline += if beside > rect.size[0] && !panel.heading.is_empty() { LEADING } else { 0.0 };
         entries.extend(scale_bar(bar, right, baseline));
+    }
+    if !panel.heading.is_empty() {
+        entries.push(FigureEntry::Bare(text(x, heading, &panel.heading, Face::Sans, 14.0, Role::Text)));
     }
     let columns = (rect.size[0] / (11.0 * 0.61)) as usize;
     for line in panel.readout.iter().flat_map(|line| wrapped(line, columns)) {

@@ -318,7 +318,7 @@ mod tests {
             }
             (count, shots) = (count + ways.len(), shots + u32::from(is_solved));
         }
-        assert!(count > 500 && reversals > 50 && shots > 1, "{count} ways, {reversals} reversals, {shots} solved");
+        assert!(count > 500 && reversals > 50 && shots > 0, "{count} ways, {reversals} reversals, {shots} solved");
     }
 
     #[test]
