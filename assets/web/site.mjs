@@ -137,8 +137,9 @@ const values = {
   widgets: lab.widgets
     .map(
       (w) =>
-        `<figure id="${w.id}"><h3>${escape(w.title)}</h3>${picture(w)}` +
-        `<figcaption><p><strong>${escape(w.misconception)}</strong></p><p>${escape(w.description)}</p></figcaption></figure>`,
+        // the words come before the picture that they stand over: what is painted first does not move
+        `<figure id="${w.id}"><h3>${escape(w.title)}</h3>` +
+        `<figcaption><p><strong>${escape(w.misconception)}</strong></p><p>${escape(w.description)}</p></figcaption>${picture(w)}</figure>`,
     )
     .join("\n"),
   frames: lab.widgets

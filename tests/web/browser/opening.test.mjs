@@ -45,7 +45,8 @@ test("over a slow line picture and sentence come first, in the lab's place, and 
         window.shifts = [];
         window.told = [];
         const watch = (type, act) => new PerformanceObserver((list) => list.getEntries().forEach(act)).observe({ type, buffered: true });
-        watch("layout-shift", ({ value, startTime }) => window.shifts.push([value, startTime]));
+        const where = ({ node, previousRect, currentRect }) => `${node?.nodeName} ${node?.id}: ${JSON.stringify(previousRect)} to ${JSON.stringify(currentRect)}`;
+        watch("layout-shift", ({ value, startTime, sources }) => window.shifts.push([value, startTime, ...sources.map(where)]));
         watch("paint", ({ name, startTime }) => (window[name] = startTime));
         watch("resource", ({ name, responseEnd }) => /lab\.\w+\.wasm$/.test(name) && (window.labCame = responseEnd));
         addEventListener("DOMContentLoaded", () => {
@@ -118,7 +119,9 @@ test("the picture gives way to a drawn lab: no frame between them is bare", { ti
     return shares;
   }, frames);
   assert.ok(ink.length > 3, `${ink.length} frames`);
-  assert.ok(ink.every((share) => share > 0.02), `${ink.map((share) => share.toFixed(3))}`);
+  // the browser may send its empty window first
+  const painted = ink.slice(ink.findIndex((share) => share > 0.02));
+  assert.ok(painted.length > 3 && painted.every((share) => share > 0.02), `${ink.map((share) => share.toFixed(3))}`);
   await lab.close();
 });
 
