@@ -68,7 +68,7 @@ export class Facts {
   #evaluate(formula) {
     const { sqrt, cos, sin, atan2, PI: pi } = Math;
     const given = { sqrt, cos, sin, atan2, pi };
-    for (const [name] of formula.matchAll(/[a-z]\w*/g)) if (!(name in given)) given[name] = this.of(name).values[0];
+    for (const [name] of formula.matchAll(/[a-z]\w*/g)) if (!(name in given)) given[name] = single(this.of(name).values);
     return new Function(...Object.keys(given), `return [${formula}];`)(...Object.values(given)).map(Number);
   }
 
@@ -85,6 +85,12 @@ export class Facts {
   }
 }
 
+/** The one number of a fact that has one, else all. */
+const single = (values) => (values.length === 1 ? values[0] : values);
+
+/** What a unit is in metres, radians or seconds; 1 for what is none of these. */
+export const scaleOf = (unit) => UNITS[unit] ?? 1;
+
 /** The unit behind the last numeral of a text. */
 export const unitOf = (text) => text.match(/([a-z°%]+)\)?$/i)?.[1] ?? "";
 
@@ -94,7 +100,7 @@ export const decimalsOf = (text) => text.match(/\.(\d+)/)?.[1].length ?? 0;
 /** A value in a unit, with as many decimals as a numeral has. */
 function shownLike(value, numeral, unit) {
   if (unit && !(unit in UNITS) && !["Hz", "ticks", "tick"].includes(unit)) throw new Error(`${unit} is no unit that the book knows`);
-  return (value / (UNITS[unit] ?? 1)).toFixed(decimalsOf(numeral)).replace(/^-(0(?:\.0*)?)$/, "$1");
+  return (value / scaleOf(unit)).toFixed(decimalsOf(numeral)).replace(/^-(0(?:\.0*)?)$/, "$1");
 }
 
 /** The numbers at a path of an answer's JSON, or of a pattern's groups in its text. */

@@ -1,14 +1,12 @@
 // Words and figure are one: numbers that follow the figure's state, and terms that light with its parts.
 
-const FACTORS = { cm: 100, mm: 1000, "°": 180 / Math.PI };
-
 /** The value at a path of the lab's state, such as `query.coordinates.1`. */
 const at = (state, path) => path.split(".").reduce((inner, key) => inner?.[key], state);
 
-/** A number in a unit, in the book's digits. */
-export function printed(value, unit, decimals) {
+/** A number in the unit and the digits that the build says for its place. */
+export function printed(value, { unit, decimals, scale }) {
   if (typeof value !== "number") return "nothing near";
-  const digits = (value * (FACTORS[unit] ?? 1)).toFixed(decimals).replace(/^-(?=0(\.0*)?$)/, "").replace("-", "−");
+  const digits = (value / scale).toFixed(decimals).replace(/^-(?=0(\.0*)?$)/, "").replace("-", "−");
   return unit === "°" ? `${digits}°` : `${digits} ${unit}`.trim();
 }
 
@@ -44,7 +42,7 @@ export function live({ figures, light }) {
       lit(state.lit);
       for (const [number, owner] of owners) {
         if (owner !== figure) continue;
-        const text = printed(at(state, number.dataset.live), number.dataset.unit, Number(number.dataset.decimals));
+        const text = printed(at(state, number.dataset.live), number.dataset);
         if (number.textContent === text) continue;
         number.textContent = text;
         number.toggleAttribute("data-moved", number.title !== `In the book: ${text}`);

@@ -8,7 +8,7 @@
 //   ```facts, ```figure     blocks of lines; ```code PATH WORDS is what stands below the comment "// WORDS" of
 //                         a file that the tests compile and run
 import { createRequire } from "node:module";
-import { decimalsOf, unbound, unitOf } from "./facts.mjs";
+import { decimalsOf, scaleOf, unbound, unitOf } from "./facts.mjs";
 
 /** Does something; what fails is about `subject`. */
 function about(subject, act) {
@@ -18,6 +18,9 @@ function about(subject, act) {
     throw Object.assign(error, { subject });
   }
 }
+
+/** How the page prints a value as `text` does: decimals, unit, and what the unit is in the lab's own. */
+const digits = (text) => ` data-decimals="${decimalsOf(text)}" data-unit="${unitOf(text)}" data-scale="${scaleOf(unitOf(text))}"`;
 
 export const escape = (text) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
 
@@ -52,13 +55,12 @@ export function renderer({ modules, facts, figure, region, address }) {
   inline("formula", "$", /\$([^$]+)\$/y, (tex) => formula(tex, false));
   inline("answer", "{", /\{\?: ([\w-]+) ([^{}]+)\}/y, (name, text) => {
     facts.check(text, name);
-    const unit = unitOf(text);
-    return `<span class="answer"><input inputmode="decimal" size="8" aria-label="Your answer" data-answer="${facts.of(name).values[0]}" data-decimals="${decimalsOf(text)}" data-unit="${unit}"> ${unit}<output></output></span>`;
+    return `<span class="answer"><input inputmode="decimal" size="8" aria-label="Your answer" data-answer="${facts.of(name).values[0]}"${digits(text)}> ${unitOf(text)}<output></output></span>`;
   });
   inline("number", "{", /\{([^{}?:]+): ([\w-]+)(?: live ([\w.]+))?\}/y, (text, name, live) => {
     facts.check(text, name);
     const shown = escape(text.replaceAll("-", "−"));
-    return live ? `<span class="live" data-live="${live}" data-decimals="${decimalsOf(text)}" data-unit="${unitOf(text)}">${shown}</span>` : `<span class="number">${shown}</span>`;
+    return live ? `<span class="live" data-live="${live}"${digits(text)}>${shown}</span>` : `<span class="number">${shown}</span>`;
   });
 
   markdown.validateLink = () => true;

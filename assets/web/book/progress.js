@@ -54,19 +54,18 @@ export function progress({ headings, figures }) {
 }
 
 /** Compares an answer with what is right: as many digits as the book shows. */
-function ask(answer, right) {
+function ask(answer, done) {
   const input = answer.querySelector("input");
   const output = answer.querySelector("output");
-  const { unit, decimals } = input.dataset;
+  const { answer: wanted, decimals } = input.dataset;
   input.addEventListener("change", () => {
     const given = Number(input.value.trim().replace(",", ".").replace("−", "-"));
-    const wanted = Number(input.dataset.answer);
     if (input.value.trim() === "" || Number.isNaN(given)) return (output.textContent = "Give a number.");
-    const unitOnce = printed(wanted, unit, Number(decimals));
-    const near = Math.abs(given - parseFloat(unitOnce.replace("−", "-"))) <= 0.5 * 10 ** -Math.min(decimals, decimalsOf(input.value));
+    const right = printed(Number(wanted), input.dataset);
+    const near = Math.abs(given - parseFloat(right.replace("−", "-"))) <= 0.5 * 10 ** -Math.min(decimals, decimalsOf(input.value));
     input.setAttribute("aria-invalid", String(!near));
-    output.textContent = near ? `Right: ${unitOnce}.` : "Not yet.";
-    if (near) right();
+    output.textContent = near ? `Right: ${right}.` : "Not yet.";
+    if (near) done();
   });
 }
 

@@ -12,7 +12,7 @@ use motion_lab_core::worlds::{ObstacleKind, World};
 use super::named::PlannerName;
 use super::task::Task;
 
-/// Sets of up to this many things are all looked at, as far as they can help.
+/// Largest sets that are all tried, as far as they can help.
 const MAX_EXACT: usize = 3;
 
 /// Largest number of sets that are planned without.
@@ -81,8 +81,8 @@ impl Task {
     /// away. Of several such sets one with the most doors, and then the most obstacles that are no walls.
     ///
     /// A barrier that stands after a removal stands before it too, so a set that helps has a thing of every barrier.
-    /// All such sets of up to three things are looked at ([`Removal::is_least`]). A larger set is one of which nothing
-    /// can be left standing. Paths and barriers are those of [`PlannerName::CellDecomposition`], for the same
+    /// All such sets of up to three things are tried ([`Removal::is_least`]). A larger set is one of which nothing can
+    /// stay. Paths and barriers are those of [`PlannerName::CellDecomposition`], for the same
     /// tube and clearance.
     ///
     /// # Errors
