@@ -68,7 +68,7 @@ pub use motion_lab_core::{
     collision, configuration, cspace, geometry, num, picture, planning, prelude, random, robots, sensors, short_list,
 };
 #[doc(hidden)]
-pub use motion_lab_core::{names, text_position};
+pub use motion_lab_core::{names, one_line, text_position};
 #[doc(hidden)]
 pub use motion_lab_sim::manifest;
 pub use motion_lab_sim::{anatomy, atlas, avoid, course, export, plans, run, shrink, simulation, tour};

@@ -522,8 +522,8 @@ async function start() {
     unwanted.abort();
     return withoutGraphics();
   }
-  // who does not see the bar hears of a long load
-  setTimeout(() => root.dataset.lab === "loading" && !failed && announce(LOADS), 2000);
+  // who does not see the bar hears of a long load, and not in place of the lab's first words
+  setTimeout(() => root.dataset.lab === "loading" && !state && !failed && announce(LOADS), 2000);
   try {
     const [[module, response]] = await Promise.all([pieces, measurePixels()]);
     if (!response.ok) throw new Error(`${files.labWasm}: ${response.status} ${response.statusText}`);

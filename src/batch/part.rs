@@ -70,16 +70,22 @@ impl PartHead {
 
     /// Its lines, each with its end.
     pub fn to_text(&self, columns: &[Column]) -> String {
-        let PartHead { study, rows: Range { start, end }, runs } = self;
-        let names = heading(columns);
-        format!("{MAGIC}\n{study}\nrows {start}..{end} of {runs}\n{names}\n")
+        let PartHead { study, rows, runs } = self;
+        let (rows, names) = (Self::rows_line(rows, *runs), heading(columns));
+        format!("{MAGIC}\n{study}\n{rows}\n{names}\n")
+    }
+
+    fn rows_line(rows: &Range<u64>, runs: u64) -> String {
+        format!("rows {}..{} of {runs}", rows.start, rows.end)
     }
 
     fn read_rows(line: &str) -> Option<(Range<u64>, u64)> {
         let (rows, runs) = line.strip_prefix("rows ")?.split_once(" of ")?;
         let (start, end) = rows.split_once("..")?;
         let (rows, runs): (Range<u64>, u64) = (start.parse().ok()?..end.parse().ok()?, runs.parse().ok()?);
-        (rows.start <= rows.end && rows.end <= runs).then_some((rows, runs))
+        // a sign or a leading zero is nothing that is written here
+        let is_as_written = Self::rows_line(&rows, runs) == line;
+        (is_as_written && rows.start <= rows.end && rows.end <= runs).then_some((rows, runs))
     }
 }
 

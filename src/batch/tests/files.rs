@@ -19,6 +19,11 @@ fn read(bytes: &[u8]) -> Result<Vec<RunRow>, PartError> {
     Ok(rows)
 }
 
+/// A part's text with its seal.
+fn sealed(text: &str) -> String {
+    format!("{text}seal {:032x}\n", xxhash_rust::xxh3::xxh3_128(text.as_bytes()))
+}
+
 #[test]
 fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
     let study = study("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
@@ -45,9 +50,21 @@ fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
         assert!(matches!(read(&changed), Err(PartError::Seal)), "byte {at}");
     }
     let later = text[..text.rfind("seal ").unwrap()].replace("motion-lab sweep 1", "motion-lab sweep 2");
-    let sealed = format!("{later}seal {:032x}\n", xxhash_rust::xxh3::xxh3_128(later.as_bytes()));
+    let sealed = sealed(&later);
     assert!(matches!(read(sealed.as_bytes()), Err(PartError::Study(reason)) if reason.contains("sweep 2")));
     assert!(matches!(read(format!("{sealed}\n").as_bytes()), Err(PartError::Seal)));
+}
+
+#[test]
+fn the_rows_of_a_part_are_written_in_one_way() {
+    let study = study("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 5))])");
+    let text = String::from_utf8(part(&study)).unwrap();
+    let with = |rows: &str| sealed(&text[..text.rfind("seal ").unwrap()].replace("\nrows 2..5 of 5\n", rows));
+    assert_eq!(with("\nrows 2..5 of 5\n"), text);
+    for other in ["+2..5 of 5", "2..+5 of 5", "2..5 of +5", "02..5 of 5", "2..05 of 5", "2..5 of 05", "2..5 of 5 "] {
+        let refused = read(with(&format!("\nrows {other}\n")).as_bytes());
+        assert!(matches!(refused, Err(PartError::Line(3))), "{other}: {refused:?}");
+    }
 }
 
 #[test]
@@ -108,7 +125,6 @@ fn a_refusal_is_one_short_line_whatever_stands_in_the_file() {
         assert!(refused.starts_with(begins) && refused.contains("long_") && refused.len() < 2000, "{refused:.200}");
     }
     let forged = format!("motion-lab sweep part 1\n{{\"{long}\n\": 1}}\n");
-    let sealed = format!("{forged}seal {:032x}\n", xxhash_rust::xxh3::xxh3_128(forged.as_bytes()));
-    let refused = PartReader::new(sealed.as_bytes()).err().unwrap().to_string();
+    let refused = PartReader::new(sealed(&forged).as_bytes()).err().unwrap().to_string();
     assert!(refused.lines().count() == 1 && refused.len() < 1000, "{refused:.200}");
 }

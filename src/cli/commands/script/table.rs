@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use motion_lab::configuration::{RobotKind, WrittenCoordinate};
+use motion_lab::one_line::OneLine;
 use motion_lab::run::{Event, Quantized, RobotInput, Script, ScriptProblem};
 use motion_lab::tour::TourConfig;
 
 /// What is wrong with a table, and where. Prints as `7:12: "fast" is no whole number`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{line}:{column}: {reason}")]
+#[error("{line}:{column}: {}", OneLine(.reason))]
 pub struct ScriptTableError {
     /// The line, from 1.
     line: usize,

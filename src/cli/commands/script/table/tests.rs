@@ -182,3 +182,19 @@ fn a_teleport_outside_the_world_is_refused_where_the_world_is_known() {
         )
     );
 }
+
+#[test]
+fn a_refusal_is_one_short_line_whatever_stands_in_the_table() {
+    let config = TourConfig { worlds: vec![World::apartment()], ..TourConfig::default() };
+    let long = "\u{7f}\u{301}".repeat(10_000);
+    for (row, begins) in [
+        (format!("1,{long},Release"), "2:3: there is no robot \""),
+        (format!("1,Rusty,{long}"), "2:9: \""),
+        (format!("{long},Rusty,Release"), "2:1: \""),
+        (format!("1,Rusty,MoveTo,{long}"), "2:16: \""),
+        (format!("1,Hitch,SetTrailer,{long}"), "2:20: \""),
+    ] {
+        let refused = script(&format!("tick,robot,input,values\n{row}\n"), Some(&config)).unwrap_err().to_string();
+        assert!(refused.starts_with(begins) && refused.chars().count() < 1000, "{refused:.200}");
+    }
+}
