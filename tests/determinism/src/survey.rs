@@ -9,7 +9,7 @@ use motion_lab_sim::run::{Frame, Recipe, WorldChange};
 
 use crate::feature::Feature;
 
-/// The number of generated runs from which on each thing has to be met in an eighth of them.
+/// The number of generated runs from which on each thing has to be met in a sixteenth of them.
 const ENOUGH: u32 = 32;
 
 /// How many of the generated runs have met what.
@@ -47,10 +47,10 @@ impl Survey {
         format!("of {} generated runs met: {}", self.runs, counts.join(", "))
     }
 
-    /// What was met in too few of many runs.
+    /// What was met in too few of many runs. A trailer that was let go and coupled again is not seen at the end.
     pub fn seldom(&self) -> Vec<&str> {
         // a run without any input is one of a few, in which most features are off
-        let least = |what: &str| if what == "no input at all" { 1 } else { self.runs / 8 };
+        let least = |what: &str| if what == "no input at all" { 1 } else { self.runs / 16 };
         let few = |(what, runs): &(&String, &u32)| **runs < least(what);
         if self.runs < ENOUGH {
             Vec::new()
