@@ -150,7 +150,7 @@ const values = {
     )
     .join("\n"),
 };
-for (const name of ["live.js", "progress.js"]) modules[name] = hashed(name, linked(join("book", name)), "the book");
+for (const name of ["live.js", "progress.js", "tasks.js"]) modules[name] = hashed(name, linked(join("book", name)), "the book");
 const book = JSON.parse(readFileSync(join(parts, "book.json"), "utf8"));
 const stills = Object.fromEntries(book.figures.map((id) => [`still.${id}`, hashed(`book-${id}.svg`, inBoth(`book-${id}`), "the book")]));
 const chapter = {

@@ -2,6 +2,7 @@
 // that were asked for is nearest to the reading line, and the others keep their last picture.
 import { live } from "./live.js";
 import { progress } from "./progress.js";
+import { tasks } from "./tasks.js";
 
 const $ = (id) => document.getElementById(id);
 const figures = [...document.querySelectorAll("figure.lab")];
@@ -15,7 +16,20 @@ const left = new Map(); // the address of each figure as its reader left it
 
 const ask = (message) => frame?.contentWindow.postMessage({ motionLab: message }, location.origin);
 const shown = live({ figures, light: (role) => ask({ do: "light", role }) });
+const judges = new Map(
+  figures.filter(({ dataset }) => dataset.task).map((figure) => [figure, tasks[figure.dataset.task](figure.dataset.given.split(",").filter(Boolean).map(Number))]),
+);
 const dots = progress({ headings: [...document.querySelectorAll("h2")], figures });
+
+/** A figure's task is done: its sentence stands from now on. */
+function done(figure) {
+  const then = figure.querySelector(".then");
+  if (then?.hidden) {
+    then.hidden = false;
+    told.textContent = then.textContent; // for who does not see it
+  }
+  dots.done(figure.id);
+}
 
 /** Lays the frame over its figure. */
 function place() {
@@ -111,13 +125,17 @@ const hear = {
     // the reader may have gone on meanwhile
     if (left.has(front)) ask({ do: "open", query: left.get(front) });
   },
-  state: (state) => front && shown.state(front, state),
-  lesson({ id, done }) {
+  state(state) {
+    if (!front) return;
+    shown.state(front, state);
+    const judged = judges.get(front)?.(state);
+    if (!judged) return;
+    front.querySelector(".far").textContent = judged.text;
+    if (judged.done) done(front);
+  },
+  lesson({ id, done: isDone }) {
     const figure = figures.find((figure) => figure.dataset.lesson === id);
-    if (!done || !figure) return;
-    const then = figure.querySelector(".then");
-    if (then) then.hidden = false;
-    dots.done(figure.id);
+    if (isDone && figure) done(figure);
   },
   figure({ request, svg }) {
     const figure = $(request.replace("still ", ""));

@@ -7,15 +7,14 @@ import { Facts, ROOT } from "./facts.mjs";
 import { Figures } from "./figures.mjs";
 import { renderer } from "./markdown.mjs";
 
-/** The lines of a source file from the comment `// WORDS` up to the next blank line, without their indentation. */
+/** The lines of a source file from the comment `// WORDS` to the end of its paragraph or block, not indented. */
 export function region(path, words) {
   const lines = readFileSync(join(ROOT, path), "utf8").split("\n");
   const begin = lines.findIndex((line) => line.trim() === `// ${words}`);
   if (begin < 0) throw new Error(`${path} has no comment "// ${words}"`);
-  const length = lines.slice(begin).findIndex((line) => line.trim() === "");
-  const shown = lines.slice(begin, length < 0 ? undefined : begin + length);
-  const indent = Math.min(...shown.map((line) => line.match(/^ */)[0].length));
-  return shown.map((line) => line.slice(indent)).join("\n");
+  const indent = lines[begin].match(/^ */)[0];
+  const length = lines.slice(begin).findIndex((line) => line.trim() === "" || !line.startsWith(indent));
+  return lines.slice(begin, length < 0 ? undefined : begin + length).map((line) => line.slice(indent.length)).join("\n");
 }
 
 /** The address that opens the lab as a figure has it, or with other fields. */
@@ -33,7 +32,7 @@ const address = (figures) => (id, query) => {
  */
 export function book(chapter, { native, parts, modules }) {
   const facts = new Facts(native);
-  const figures = new Figures(native, parts);
+  const figures = new Figures(native, parts, facts);
   const render = renderer({ modules, facts, figure: (text, inline) => figures.make(text, inline), region, address: address(figures) });
   const { body, sections } = render(chapter);
   return { title: chapter.match(/^# (.+)$/m)[1], body, sections, figures: figures.made.map(({ id }) => id) };

@@ -1,6 +1,8 @@
 // The numbers of the book: each is what the lab answers to a command or what follows from such answers, and the prose may not differ
 // from it by a digit.
 import { execFileSync } from "node:child_process";
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 /** Where the files lie that commands name. */
@@ -24,8 +26,9 @@ export const unbound = (text) => text.match(MEASURE)?.[0] ?? null;
 /**
  * The facts that lines such as `name: query distance --robot reach 45deg,90deg -> distance` and `name = half * 2` tell.
  *
- * What stands behind `->` is a path into the answer's JSON or, between slashes, a pattern whose groups are the numbers. `native` is the
- * program that answers.
+ * What stands behind `->` is a path into the answer's JSON or, between slashes, a pattern whose groups are the numbers.
+ * `native` is the program that answers. In place of a command may stand a file of `tests/pinned`, what a test sees an
+ * example print.
  */
 export class Facts {
   #lines = new Map();
@@ -59,7 +62,8 @@ export class Facts {
 
   #answer(command) {
     if (!answers.has(command)) {
-      const told = execFileSync(this.#native, ["--quiet", ...command.split(/\s+/)], { cwd: ROOT, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
+      const pinned = command.startsWith("tests/pinned/") && join(ROOT, command);
+      const told = pinned && existsSync(pinned) ? readFileSync(pinned, "utf8") : execFileSync(this.#native, ["--quiet", ...command.split(/\s+/)], { cwd: ROOT, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
       answers.set(command, told);
     }
     return answers.get(command);

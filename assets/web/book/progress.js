@@ -13,12 +13,12 @@ function kept() {
   }
 }
 
-/** Makes the dots of the sections under `headings`, whose tasks are figures with lessons and questions. */
+/** Makes the dots of the sections under `headings`, whose tasks are figures with lessons or tasks, and questions. */
 export function progress({ headings, figures }) {
   const done = kept();
   const answers = [...document.querySelectorAll(".answer")];
   answers.forEach((answer, i) => (answer.dataset.task = `answer-${i + 1}`));
-  const tasks = [...figures.filter((figure) => figure.dataset.lesson).map((figure) => [figure.id, figure]), ...answers.map((answer) => [answer.dataset.task, answer])];
+  const tasks = [...figures.filter(({ dataset }) => dataset.lesson || dataset.task).map((figure) => [figure.id, figure]), ...answers.map((answer) => [answer.dataset.task, answer])];
   const sections = headings.map((heading, i) => {
     const next = headings[i + 1];
     const within = (element) => heading.compareDocumentPosition(element) & Node.DOCUMENT_POSITION_FOLLOWING && !(next && next.compareDocumentPosition(element) & Node.DOCUMENT_POSITION_FOLLOWING);

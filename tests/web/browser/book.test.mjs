@@ -6,6 +6,7 @@ import { tmpdir } from "node:os";
 import { after, before, test } from "node:test";
 import { join } from "node:path";
 import { Lab, begin, end, origin } from "./harness.mjs";
+import { seen, within } from "./on_book.mjs";
 import { lab } from "./on_page.mjs";
 import { book } from "../../../assets/web/book/build.mjs";
 
@@ -45,6 +46,9 @@ test("a digit that is not the lab's is named by its sentence, and so is a number
   assert.match(built(changed("{18: armcontacts}", "{17: armcontacts}")), /17 is 18 by armcontacts \(record/);
   assert.match(built(changed("{?: thick 0.0307 m}", "{?: thick 0.0306 m}")), /0\.0306 m is 0\.0307/);
   assert.match(built(changed("{3 cm: thickness}", "{3 mm: thickness}")), /3 mm is 30 by thickness/);
+  assert.match(built(changed("task: trailer_at", "task: trailer_in")), /trailer_in is no task; they are trailer_at, /);
+  assert.match(built(changed("trailer_at hitch, beside", "trailer_at hitch, nearby")), /no fact is called nearby/);
+  assert.match(built(changed("{89: rounds}", "{88: rounds}")), /88 is 89 by rounds \(tests\/pinned\/bug1\.txt\)/);
   assert.match(built(changed("(role:robot) of a robot", "(move:nowhere) of a robot")), /no figure above is called nowhere/);
 });
 
@@ -68,15 +72,6 @@ lab("nothing of the lab is loaded before a figure is touched, and the first view
   const bytes = loaded.reduce((sum, { bytes }) => sum + bytes, 0);
   assert.ok(bytes < 100_000, `${bytes} bytes`);
 }, { wait: false });
-
-/** Opens the book and goes into a figure; gives the lab's frame once it draws. */
-async function within(page, id) {
-  await page.goto(`${origin()}/book.html`);
-  await page.click(`#${id} .frame`);
-  await page.waitForSelector("#frame:not([data-waits])", { timeout: 90000 });
-  return page.frames()[1];
-}
-const seen = (frame, wanted) => frame.waitForFunction(wanted, null, { timeout: 20000 });
 
 lab("a figure's numbers, words and links are one with it", "/", async ({ page }) => {
   const frame = await within(page, "witness");
