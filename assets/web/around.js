@@ -4,7 +4,7 @@
 const ASKED = "light open play pause step step_back reset reroll seek why way_out seed widget tab lesson configuration robot door theme figure state link save".split(" ");
 
 /** What a page around hears. The run, the settings and what is copied are the reader's. */
-const HEARD = "ready state lesson figure link saved done error failed".split(" ");
+const HEARD = "ready state lesson figure link saved leave done error failed".split(" ");
 
 /**
  * Speaks with the page around, if there is one. `ask` carries out a message, `askReader` asks whether the run may be saved, `refuse` tells
@@ -31,6 +31,10 @@ export function around({ ask, askReader, refuse }) {
     // a file is saved for the reader, not for the page around: the reader is asked
     if (message.do === "save") askReader(message.request);
     else ask({ ...message, around: true });
+  });
+  // Escape leaves the frame, unless it closes something in it
+  window.addEventListener("keydown", ({ key }) => {
+    if (key === "Escape" && !document.querySelector("[aria-expanded=true], [role=dialog], [role=menu]")) tell({ kind: "leave" });
   });
   return tell;
 }

@@ -1,7 +1,7 @@
 // A small static server for the site: types, the compressed copies, and the policy as a header too. For trying and for tests.
 import { createServer } from "node:http";
 import { createReadStream, existsSync, readFileSync, statSync } from "node:fs";
-import { join, normalize, extname, sep } from "node:path";
+import { basename, join, normalize, extname, sep } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const TYPES = {
@@ -46,6 +46,8 @@ export function serve(folder, port) {
       "x-content-type-options": "nosniff",
       ...(extname(file) === ".html" && { "content-security-policy": policyOf(file) }),
       "referrer-policy": "no-referrer",
+      // a module that pages of other origins may take
+      ...(basename(file) === "motion-figure.js" && { "access-control-allow-origin": "*" }),
     };
     const compressed = `${file}.br`;
     if (existsSync(compressed) && /\bbr\b/.test(request.headers["accept-encoding"] ?? "")) {

@@ -150,6 +150,9 @@ const values = {
     )
     .join("\n"),
 };
+// these have plain names: other people's pages link them
+const named = Object.fromEntries(["motion-figure.js", "motion-figure.css"].map((name) => [name, source(join("book", name))]));
+for (const [name, text] of Object.entries(named)) modules[name] = write(name, text, "the book");
 for (const name of ["live.js", "progress.js", "tasks.js"]) modules[name] = hashed(name, linked(join("book", name)), "the book");
 const book = JSON.parse(readFileSync(join(parts, "book.json"), "utf8"));
 const stills = Object.fromEntries(book.figures.map((id) => [`still.${id}`, hashed(`book-${id}.svg`, inBoth(`book-${id}`), "the book")]));
@@ -160,7 +163,7 @@ const chapter = {
   "book.css": hashed("book.css", source("book/book.css"), "the book"),
   "book.js": hashed("book.js", linked("book/book.js"), "the book"),
 };
-const pages = {};
+const pages = Object.fromEntries(Object.entries(named).map(([name, text]) => [name, hash(text)]));
 for (const [name, template, page] of [
   ["index.html", "index.html", "lab"],
   ["embed.html", "index.html", "embed"],

@@ -57,8 +57,9 @@ export class Figures {
     const number = this.made.length;
     const query = figure.lesson ? `${figure.query}&lesson=${figure.lesson}` : figure.query;
     return [
-      `<figure class="lab" id="${figure.id}" data-query="${escape(query)}" data-title="${escape(figure.title)}"${figure.lesson ? ` data-lesson="${figure.lesson}"` : ""}${figure.task ? this.#task(figure.task) : ""}>`,
-      `<a class="frame" href="index.html?${escape(query)}" data-figure="${figure.id}"><img src="{{still.${figure.id}}}" loading="lazy" alt="${escape(figure.alt)}"><span class="try">Try it</span></a>`,
+      `<figure class="lab" id="${figure.id}"${figure.lesson ? ` data-lesson="${figure.lesson}"` : ""}${figure.task ? this.#task(figure.task) : ""}>`,
+      `<motion-figure query="${escape(query)}" label="${escape(figure.title)}"><a href="index.html?${escape(query)}">`,
+      `<img src="{{still.${figure.id}}}" loading="lazy" alt="${escape(figure.alt)}"><span class="try">Try it</span></a></motion-figure>`,
       `<figcaption><strong>Figure ${number}.</strong> ${figure.question ? `<em>${inline(figure.question)}</em> ` : ""}${inline(figure.caption)}`,
       figure.task ? `<span class="far"></span>` : "",
       figure.then ? `<span class="then" hidden>${inline(figure.then)}</span>` : "",

@@ -103,20 +103,20 @@ lab("one frame serves the figure that is read; the others keep their last pictur
   await frame.evaluate(() => window.motionLab.send({ do: "configuration", coordinates: [0.5, 1.25] }));
   await seen(frame, () => window.received.state.query?.coordinates[0] === 0.5);
   const still = await page.getAttribute("#witness img", "src");
-  await page.click("#worlds .frame");
+  await page.click("#worlds motion-figure");
   await seen(frame, () => window.received.state.widget === "atlas");
   await page.waitForFunction(() => document.querySelector("#witness img").src.startsWith("blob:"));
   assert.notEqual(await page.getAttribute("#witness img", "src"), still);
   assert.equal(await page.locator("iframe").count(), 1);
   const over = async (id) => {
-    const [outer, inner] = [await page.locator(`#${id} .frame`).boundingBox(), await page.locator("#frame").boundingBox()];
+    const [outer, inner] = [await page.locator(`#${id} motion-figure`).boundingBox(), await page.locator("iframe").boundingBox()];
     return Math.abs(outer.x - inner.x) + Math.abs(outer.y - inner.y) + Math.abs(outer.width - inner.width) + Math.abs(outer.height - inner.height) < 4;
   };
   assert.ok(await over("worlds"), "it lies over its figure");
   // who scrolls back finds the first figure at work again
   await page.evaluate(() => document.activeElement.blur());
   await page.locator("#witness").scrollIntoViewIfNeeded();
-  await page.evaluate(() => document.querySelector("#witness .frame").scrollIntoView({ block: "center" }));
+  await page.evaluate(() => document.querySelector("#witness motion-figure").scrollIntoView({ block: "center" }));
   await seen(frame, () => window.received.state.widget === "anatomy" && window.received.state.query?.coordinates[0] === 0.5);
   assert.ok(await over("witness"));
   assert.equal(page.frames().length, 2, "no second lab was loaded");
@@ -126,14 +126,14 @@ lab("a figure is one stop of Tab: Enter goes in, Escape out", "/", async ({ page
   await page.goto(`${origin()}/book.html`);
   const stops = await page.evaluate(() => [...document.querySelectorAll("figure.lab a, figure.lab button:not(.term), figure.lab [tabindex]")].filter((e) => e.tabIndex >= 0 && !e.closest("figcaption")).length);
   assert.equal(stops, await page.locator("figure.lab").count());
-  await page.focus("#witness .frame");
+  await page.focus("#witness motion-figure a");
   await page.keyboard.press("Enter");
-  await page.waitForSelector("#frame:not([data-waits])", { timeout: 90000 });
-  await page.waitForFunction(() => document.activeElement.id === "frame");
+  await page.waitForSelector("iframe:not([data-waits])", { timeout: 90000 });
+  await page.waitForFunction(() => document.activeElement.matches("iframe"));
   await page.keyboard.press("Escape");
-  await page.waitForFunction(() => document.activeElement.matches("#witness .frame"));
+  await page.waitForFunction(() => document.activeElement.matches("#witness motion-figure a"));
   await page.keyboard.press("Tab");
-  assert.notEqual(await page.evaluate(() => document.activeElement.id), "frame", "Tab goes on in the text");
+  assert.ok(!(await page.evaluate(() => document.activeElement.matches("iframe"))), "Tab goes on in the text");
 }, { wait: false, timeout: 240000 });
 
 lab("answers are judged where they stand and kept; the dots tell, to a page around too", "/book.html", async ({ page }) => {
@@ -174,7 +174,7 @@ test("without script the book is whole: pictures, formulas, numbers, and links t
   const { page } = open;
   const figures = page.locator("figure.lab");
   for (let i = 0; i < (await figures.count()); i++) {
-    const frame = figures.nth(i).locator(".frame");
+    const frame = figures.nth(i).locator("motion-figure > a");
     await frame.scrollIntoViewIfNeeded();
     assert.match(await frame.getAttribute("href"), /^index\.html\?widget=\w+/);
     assert.ok((await frame.locator("img").boundingBox()).height > 150, "its still has a height");

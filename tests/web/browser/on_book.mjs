@@ -4,8 +4,8 @@ import { origin } from "./harness.mjs";
 /** Opens the book and goes into a figure; gives the lab's frame once it draws. */
 export async function within(page, id) {
   await page.goto(`${origin()}/book.html`);
-  await page.click(`#${id} .frame`);
-  await page.waitForSelector("#frame:not([data-waits])", { timeout: 90000 });
+  await page.click(`#${id} motion-figure`);
+  await page.waitForSelector("iframe:not([data-waits])", { timeout: 90000 });
   return page.frames()[1];
 }
 

@@ -1,0 +1,86 @@
+// <motion-figure> in a page of another origin, which is its own policy's.
+import assert from "node:assert/strict";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { after, before } from "node:test";
+import { join } from "node:path";
+import { serve } from "../../../assets/web/serve.mjs";
+import { begin, end, origin } from "./harness.mjs";
+import { seen, send } from "./on_book.mjs";
+import { lab } from "./on_page.mjs";
+
+let server = null;
+const folder = mkdtempSync(join(tmpdir(), "figures-"));
+const elsewhere = () => `http://localhost:${server.address().port}/`;
+
+const figure = (id, query, within = "") => `<motion-figure id="${id}" query="${query}" label="Figure ${id}">${within}</motion-figure><p style="height:1200px">Words.</p>`;
+const PICTURE = "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 8 4'/%3E";
+
+before(async () => {
+  await begin();
+  const from = origin();
+  writeFileSync(
+    join(folder, "index.html"),
+    `<!doctype html><html lang="en"><meta charset="utf-8"><title>A book of others</title>
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src ${from}; style-src ${from} 'unsafe-inline'; frame-src ${from}; img-src data: blob:">
+<link rel="icon" href="data:,"><link rel="stylesheet" href="${from}/motion-figure.css">
+<script type="module" src="${from}/motion-figure.js"></script>
+<body style="margin:40px"><h1>A book of others</h1><div style="width:620px">
+${figure("a", "widget=anatomy&amp;tab=witness&amp;q=0.5,1.25", `<a href="${from}/index.html?tab=witness"><img src="${PICTURE}" alt="An arm"></a>`)}
+${figure("b", "widget=atlas")}
+</div></body></html>`,
+  );
+  server = await serve(folder, 0);
+});
+after(async () => {
+  server.close();
+  server.closeAllConnections();
+  rmSync(folder, { recursive: true });
+  await end();
+});
+
+lab("a page of another origin has figures that share one lab, hears and moves them", "/embed.html", async ({ page }) => {
+  await page.addInitScript(() => {
+    window.heard = [];
+    document.addEventListener("motionlab", ({ target, detail }) => window.heard.push({ id: target.id, ...detail }));
+  });
+  await page.goto(elsewhere());
+  assert.equal(page.frames().length, 1, "no lab before a figure is touched");
+  assert.equal(await page.locator("#b a").getAttribute("href"), `${origin()}/index.html?widget=atlas`, "without a link of its own it opens the lab");
+  await page.focus("#a a");
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("iframe:not([data-waits])", { timeout: 90000 });
+  const [, frame] = page.frames();
+  assert.equal(new URL(frame.url()).origin, origin());
+  const heard = (id, key, value) => page.waitForFunction(([id, key, value]) => window.heard.some((said) => said.id === id && said.kind === "state" && String(key.split(".").reduce((inner, name) => inner?.[name], said)) === value), [id, key, value], { timeout: 20000 });
+  await heard("a", "query.coordinates", "0.5,1.25");
+  await page.evaluate(() => document.getElementById("a").move("q=0.5,1.5"));
+  await heard("a", "query.coordinates", "0.5,1.5");
+  await page.evaluate(() => document.getElementById("a").send({ do: "configuration", coordinates: [0.25, 1.5] }));
+  await heard("a", "query.coordinates", "0.25,1.5");
+  // Escape comes out of the frame of another origin, too
+  await page.waitForFunction(() => document.activeElement.matches("iframe"));
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => document.activeElement.matches("#a a"));
+
+  // a state that the lab told before it took the other figure's address comes late
+  await page.evaluate((origin) => {
+    document.getElementById("b").enter();
+    const late = { motionLab: { kind: "state", widget: "anatomy" } };
+    dispatchEvent(new MessageEvent("message", { source: document.querySelector("iframe").contentWindow, origin, data: late }));
+  }, origin());
+  await heard("b", "widget", "atlas");
+  const { x, y, width, height } = await page.locator("#b").boundingBox();
+  const over = await page.locator("iframe").boundingBox();
+  assert.ok([over.x - x, over.y - y, over.width - width, over.height - height].every((off) => Math.abs(off) < 1), "the frame lies over its figure");
+  await page.waitForFunction(() => document.querySelector("#a img").src.startsWith("blob:"));
+  assert.equal(await page.locator("iframe").count(), 1);
+  // and nothing that is told of one figure comes as the other's
+  const mixed = await page.evaluate(() => window.heard.filter(({ kind, id, widget }) => kind === "state" && widget !== { a: "anatomy", b: "atlas" }[id]).length);
+  assert.equal(mixed, 0);
+  await page.keyboard.press("Escape");
+  await page.evaluate(() => document.getElementById("a").scrollIntoView({ block: "center" }));
+  await seen(frame, () => window.received.state.query?.coordinates[0] === 0.25);
+  await send(frame, { do: "configuration", coordinates: [0.5, 1] });
+  await heard("a", "query.coordinates", "0.5,1");
+}, { wait: false, timeout: 240000 });
