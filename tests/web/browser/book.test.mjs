@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { Lab, begin, end, origin } from "./harness.mjs";
 import { seen, within } from "./on_book.mjs";
 import { lab } from "./on_page.mjs";
-import { book } from "../../../assets/web/book/build.mjs";
+import { book, region } from "../../../assets/web/book/build.mjs";
 
 before(begin);
 after(end);
@@ -63,10 +63,20 @@ test("a digit that changes in a world is named by the sentence that tells it", {
   assert.match(told, /in: It is held one radius before, \{0\.11 m: radius\} for Rusty/);
 });
 
+test("a part of a program ends with its paragraph or its block", () => {
+  const walk = region("examples/redundancy_walk.rs", "the start's solution among [elbow-down, elbow-up]").split("\n");
+  assert.equal(walk.at(-1), "walk", "without the brace of the function around");
+  assert.ok(walk.every((line) => !line.startsWith(" ") || line.startsWith("    ")) && walk[1].startsWith("let side"), walk.join("\n"));
+  const scene = region("examples/lab_tour.rs", "a scratch scene with the worked example's square, which is also the Workbench's block");
+  assert.ok(scene.includes("let w = ") && !scene.includes("\n\n"));
+});
+
 lab("nothing of the lab is loaded before a figure is touched, and the first view weighs at most 100 kB", "/", async ({ page }) => {
   const loaded = [];
   page.on("response", async (response) => loaded.push({ url: response.url(), bytes: Number(response.headers()["content-length"]) }));
-  await page.goto(`${origin()}/book.html`, { waitUntil: "networkidle" });
+  await page.goto(`${origin()}/book.html`);
+  await page.waitForSelector("#dots a[title]"); // the page's script has run
+  await page.waitForTimeout(500);
   assert.ok(loaded.length > 5);
   assert.deepEqual(loaded.filter(({ url }) => /wasm|\/lab\.|\/light\./.test(url)), []);
   const bytes = loaded.reduce((sum, { bytes }) => sum + bytes, 0);
@@ -168,6 +178,17 @@ lab("the book fits a phone of 320 points, and its long formulas and code scroll 
   const cut = await page.evaluate(() => [...document.querySelectorAll("main *")].filter((e) => e.getBoundingClientRect().right > 321 && !e.closest("pre, table, .formula")).map((e) => e.outerHTML.slice(0, 80)));
   assert.deepEqual(cut, []);
 }, { wait: false, options: { viewport: { width: 320, height: 640 } } });
+
+lab("on paper no code is cut off, no figure keeps room for a button, and answers are open", "/book.html", async ({ page }) => {
+  const blocks = () => page.evaluate(() => [...document.querySelectorAll("pre")].filter((pre) => pre.scrollWidth > pre.clientWidth).length);
+  assert.ok((await blocks()) > 1, "on this screen some scroll");
+  await page.emulateMedia({ media: "print" });
+  assert.equal(await blocks(), 0);
+  for (const what of ["nav", ".try", ".then"]) assert.ok(!(await page.locator(what).first().isVisible()), what);
+  for (const answer of await page.locator("details > p").all()) assert.ok((await answer.boundingBox()).height > 20);
+  const rooms = await page.evaluate(() => [...document.querySelectorAll("motion-figure")].map((figure) => figure.getBoundingClientRect().bottom - figure.querySelector("img").getBoundingClientRect().bottom));
+  assert.ok(rooms.length === 10 && rooms.every((room) => room < 4), String(rooms));
+}, { wait: false, options: { viewport: { width: 680, height: 900 } } });
 
 test("without script the book is whole: pictures, formulas, numbers, and links that open the lab", { timeout: 120000 }, async () => {
   const open = await Lab.open("/book.html", { wait: false, options: { javaScriptEnabled: false } });
