@@ -203,6 +203,46 @@ fn unsafe_and_missing_docs_are_forbidden_in_every_crate() {
     }
 }
 
+/// `fuzz` is a crate of its own that only `tests/all/fuzz` compiles.
+#[test]
+fn the_fuzz_programs_are_alike_and_their_crate_names_what_their_sources_use() {
+    let root = root();
+    let text = |path: &str| fs::read_to_string(root.join(path)).unwrap();
+    let files = |folder: &str| {
+        let names =
+            fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.ends_with(".rs")).map(|name| format!("{folder}/{name}")).collect::<BTreeSet<_>>()
+    };
+    let programs = files("fuzz/fuzz_targets");
+    for program in &programs {
+        let name = program.rsplit('/').next().unwrap().trim_end_matches(".rs");
+        let body = "libfuzzer_sys::fuzz_target!(|data: &[u8]| {\n    check(data);\n});\n";
+        let expected = format!("#![no_main]\n\nuse motion_lab_fuzz::targets::{name}::check;\n\n{body}");
+        assert_eq!(text(program), expected, "{program}");
+    }
+    assert!(programs.len() > 10, "only {}: this test no longer finds the programs", programs.len());
+
+    // the sources, with those that they take in by a path from the root
+    let mut sources: String = files("tests/fuzz").iter().map(|file| text(file)).collect();
+    let taken: Vec<String> =
+        sources.split("#[path = \"../../").skip(1).map(|rest| text(rest.split('"').next().unwrap())).collect();
+    assert!(!taken.is_empty(), "nothing is taken in: this test no longer reads the sources");
+    sources.extend(taken);
+    let manifest = text("fuzz/Cargo.toml");
+    let mut named = 0;
+    for dependency in text("Cargo.toml").lines().filter_map(|line| line.split_once([' ', '.']).map(|(name, _)| name)) {
+        let path = format!("{}::", dependency.replace('-', "_"));
+        let is_used = sources
+            .match_indices(&path)
+            .any(|(at, _)| !sources[..at].ends_with(|c: char| c.is_alphanumeric() || "_:".contains(c)));
+        if is_used && dependency.starts_with(|c: char| c.is_ascii_lowercase()) {
+            assert!(manifest.contains(&format!("\n{dependency} = ")), "fuzz/Cargo.toml does not name {dependency}");
+            named += 1;
+        }
+    }
+    assert!(named > 1, "{named} crates are named: this test no longer reads the manifests");
+}
+
 /// The crates that a crate needs, with what it needs itself, each once.
 fn crates(package: &str) -> BTreeSet<String> {
     let output = Command::new(env!("CARGO"))
