@@ -64,6 +64,7 @@ export function renderer({ modules, facts, figure, region, address }) {
   });
 
   markdown.validateLink = () => true;
+  markdown.renderer.rules.table_open = () => `<table tabindex="0">\n`; // on a phone it scrolls, by keys too
   markdown.renderer.rules.link_open = (tokens, i, options, _, self) => {
     const [, scheme, rest] = tokens[i].attrGet("href").match(/^(role|move):(.+)$/) ?? [];
     const close = tokens.slice(i).find((token) => token.type === "link_close");
@@ -82,7 +83,7 @@ export function renderer({ modules, facts, figure, region, address }) {
     const text = tokens[i].content;
     if (kind === "facts") return "";
     if (kind === "figure") return figure(text, (inner) => markdown.renderInline(inner));
-    if (kind === "math") return `<div class="formula">${formula(text, true)}</div>\n`;
+    if (kind === "math") return `<div class="formula" tabindex="0">${formula(text, true)}</div>\n`;
     if (kind === "code") return `<figure class="code"><figcaption><code>${escape(words[0])}</code></figcaption><pre tabindex="0"><code>${escape(region(words[0], words.slice(1).join(" ")))}</code></pre></figure>\n`;
     return `<pre tabindex="0"><code>${escape(text)}</code></pre>\n`;
   };

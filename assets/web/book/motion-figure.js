@@ -75,14 +75,18 @@ function leave() {
   if (ready && !untaken) for (const what of ["figure", "link"]) askFor(front, { do: what });
 }
 
-/** The figure that was asked for and is nearest to the reading line, if it is well in view. */
-function nearest() {
-  const line = innerHeight * 0.45;
-  const off = (figure) => {
-    const { top, bottom } = figure.getBoundingClientRect();
-    return top > innerHeight - 120 || bottom < 120 ? Infinity : Math.abs((top + bottom) / 2 - line);
-  };
-  return [...figures].filter((figure) => figure.hasAttribute("opened") && off(figure) < Infinity).sort((a, b) => off(a) - off(b))[0];
+/** How far a figure is from the reading line: infinitely, unless it is well in view. */
+function off(figure) {
+  const { top, bottom } = figure.getBoundingClientRect();
+  return top > innerHeight - 120 || bottom < 120 ? Infinity : Math.abs((top + bottom) / 2 - innerHeight * 0.45);
+}
+
+/** Serves the figure that was asked for and is nearest to the reading line; who is within one in view keeps it. */
+function follow() {
+  if (!ready || (document.activeElement === frame && off(front) < Infinity)) return;
+  const seen = [...figures].filter((figure) => figure.hasAttribute("opened") && off(figure) < Infinity);
+  const [nearest = front] = seen.sort((a, b) => off(a) - off(b));
+  serve(nearest);
 }
 
 const sizes = new ResizeObserver(place);
@@ -91,8 +95,7 @@ let settled; // the timer of a scroll that has come to rest
 addEventListener("scroll", ({ target }) => {
   if (target !== document) place(); // something within the page scrolls
   clearTimeout(settled);
-  // who is within the figure keeps it
-  settled = setTimeout(() => document.activeElement !== frame && ready && serve(nearest() ?? front), 150);
+  settled = setTimeout(follow, 150);
 }, { passive: true, capture: true });
 
 // ---- what the lab says ----

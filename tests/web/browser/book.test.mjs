@@ -177,6 +177,10 @@ lab("the book fits a phone of 320 points, and its long formulas and code scroll 
   assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 320);
   const cut = await page.evaluate(() => [...document.querySelectorAll("main *")].filter((e) => e.getBoundingClientRect().right > 321 && !e.closest("pre, table, .formula")).map((e) => e.outerHTML.slice(0, 80)));
   assert.deepEqual(cut, []);
+  // and keys reach them
+  const scrolled = await page.evaluate(() => [...document.querySelectorAll("pre, table, .formula")].filter((e) => e.scrollWidth > e.clientWidth).map((e) => [e.tagName, e.tabIndex]));
+  assert.ok(scrolled.length > 5);
+  assert.deepEqual(scrolled.filter(([, tabIndex]) => tabIndex < 0), []);
 }, { wait: false, options: { viewport: { width: 320, height: 640 } } });
 
 lab("on paper no code is cut off, no figure keeps room for a button, and answers are open", "/book.html", async ({ page }) => {
