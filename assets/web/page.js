@@ -517,7 +517,9 @@ async function start() {
   const pieces = Promise.all([import(new URL(files.lab, location.href)), fetch(files.labWasm, { signal: unwanted.signal })]);
   // a browser takes a while to say whether it has WebGL 2, and paints nothing meanwhile: the picture comes first
   await inTime(painted(), document.hidden ? 0 : 3000);
-  if (!document.createElement("canvas").getContext("webgl2")) {
+  const graphics = document.createElement("canvas").getContext("webgl2");
+  graphics?.getExtension("WEBGL_lose_context")?.loseContext(); // the lab has its own
+  if (!graphics) {
     pieces.catch(() => {});
     unwanted.abort();
     return withoutGraphics();
