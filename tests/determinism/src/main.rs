@@ -29,7 +29,7 @@ use std::path::Path;
 
 use catalogue::{NamedRun, catalogue, named};
 use motion_lab_sim::recording::{Run, RunParts, TickDigests};
-use motion_lab_sim::run::{LogKind, Recipe};
+use motion_lab_sim::run::{Frame, LogKind, Recipe};
 use survey::Survey;
 
 type Done = Result<(), Box<dyn Error>>;
@@ -64,9 +64,10 @@ fn runs(all: impl Iterator<Item = NamedRun>) -> Done {
     for NamedRun { name, recipe } in all {
         let mut digests = TickDigests::of(&recipe).map_err(|error| format!("{name}: {error}"))?;
         let start = digests.recorder().frame().clone();
-        line(&name, &mut digests)?;
+        let mut is_coupled = false;
+        line(&name, &mut digests, |frame| is_coupled |= survey::is_coupled_otherwise(&start, frame))?;
         if survey::generated(&name).is_some() {
-            survey.see(&recipe, &start, digests.recorder());
+            survey.see(&recipe, is_coupled, digests.recorder());
         }
     }
     eprintln!("{}", survey.words());
@@ -77,9 +78,14 @@ fn runs(all: impl Iterator<Item = NamedRun>) -> Done {
 }
 
 /// Prints the line of a run: name, ticks, digest of the run, digest of all ticks.
-fn line(name: &str, digests: &mut TickDigests) -> Done {
-    let ticks = digests.by_ref().count() - 1;
-    writeln!(stdout(), "{name} {ticks} {} {}", digests.run(), digests.digest())?;
+/// Prints the line of a run, and shows each of its frames.
+fn line(name: &str, digests: &mut TickDigests, mut each: impl FnMut(&Frame)) -> Done {
+    let mut frames = 0;
+    while digests.next().is_some() {
+        each(digests.recorder().frame());
+        frames += 1;
+    }
+    writeln!(stdout(), "{name} {} {} {}", frames - 1, digests.run(), digests.digest())?;
     Ok(())
 }
 
@@ -96,7 +102,7 @@ fn digests() -> Done {
         let text = text?;
         let (name, parts) = text.split_once('\t').ok_or("a line is a name, a tabulator and the parts of a run")?;
         let parts: RunParts = serde_json::from_str(parts)?;
-        line(name, &mut TickDigests::of(&parts.recipe()?)?)?;
+        line(name, &mut TickDigests::of(&parts.recipe()?)?, |_| ())?;
     }
     Ok(())
 }

@@ -9,7 +9,7 @@ use motion_lab_sim::run::{Frame, Recipe, WorldChange};
 
 use crate::feature::Feature;
 
-/// The number of generated runs from which on each thing has to be met in a sixteenth of them.
+/// The number of generated runs from which on each thing has to be met in an eighth of them.
 const ENOUGH: u32 = 32;
 
 /// How many of the generated runs have met what.
@@ -20,8 +20,8 @@ pub struct Survey {
 }
 
 impl Survey {
-    /// Counts what a run has met that has come to its end.
-    pub fn see(&mut self, recipe: &Recipe, start: &Frame, run: &Recorder) {
+    /// Counts what a run has met that has come to its end, and whether a trailer was coupled or let go on the way.
+    pub fn see(&mut self, recipe: &Recipe, is_coupled: bool, run: &Recorder) {
         self.runs += 1;
         let on = Feature::of_seed(recipe.seed);
         let end = run.frame();
@@ -29,11 +29,10 @@ impl Survey {
             let is_met = on.contains(&feature) && is_met(feature, recipe, end);
             *self.met.entry(format!("{feature:?}")).or_default() += u32::from(is_met);
         }
-        let trailer = |frame: &Frame, i: usize| frame.robots[i].configuration.len();
         let results = [
             ("a contact", end.robots.iter().any(|robot| robot.contacts > 0)),
             ("a refused input", end.robots.iter().any(|robot| robot.refusals > 0)),
-            ("a trailer coupled or let go", (0..end.robots.len()).any(|i| trailer(start, i) != trailer(end, i))),
+            ("a trailer coupled or let go", is_coupled),
             ("no input at all", recipe.inputs() == 0),
         ];
         for (what, is_met) in results {
@@ -47,10 +46,10 @@ impl Survey {
         format!("of {} generated runs met: {}", self.runs, counts.join(", "))
     }
 
-    /// What was met in too few of many runs. A trailer that was let go and coupled again is not seen at the end.
+    /// What was met in too few of many runs.
     pub fn seldom(&self) -> Vec<&str> {
         // a run without any input is one of a few, in which most features are off
-        let least = |what: &str| if what == "no input at all" { 1 } else { self.runs / 16 };
+        let least = |what: &str| if what == "no input at all" { 1 } else { self.runs / 8 };
         let few = |(what, runs): &(&String, &u32)| **runs < least(what);
         if self.runs < ENOUGH {
             Vec::new()
@@ -84,6 +83,11 @@ fn is_met(feature: Feature, recipe: &Recipe, end: &Frame) -> bool {
         Feature::Sizes | Feature::Jackknife => robots.any(|robot| robot.sizes.is_some()),
         Feature::Routes => robots.any(|robot| robot.route.is_some()),
     }
+}
+
+/// Whether a robot has its trailer in one of the frames alone.
+pub fn is_coupled_otherwise(start: &Frame, frame: &Frame) -> bool {
+    start.robots.iter().zip(&frame.robots).any(|(before, now)| before.configuration.len() != now.configuration.len())
 }
 
 /// Whether a name is that of a generated run, and of which seed.
