@@ -356,7 +356,7 @@ async function print(svg) {
 }
 
 document.addEventListener("keydown", (event) => {
-  if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "p" || root.dataset.lab !== "running" || failed) return;
+  if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "p" || !state || failed) return;
   event.preventDefault();
   prints = true;
   send({ do: "figure" });

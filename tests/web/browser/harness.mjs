@@ -67,7 +67,8 @@ export class Lab {
     await before(page);
     await page.goto(path.startsWith("http") || path.startsWith("file:") ? path : origin() + path);
     if (wait) {
-      await page.waitForFunction(() => window.received.kinds.includes("ready") && window.received.tree.length > 0 && window.received.state, null, { timeout: 60000 });
+      const shown = () => window.received.kinds.includes("ready") && window.received.tree.length > 0 && window.received.state && document.documentElement.dataset.lab !== "loading";
+      await page.waitForFunction(shown, null, { timeout: 60000 });
     }
     return lab;
   }

@@ -210,7 +210,10 @@ lab("the atlas's robot, the point that it measures and what is selected move by 
 lab("paper gets a figure instead of a canvas", "/?tick=200", async (lab) => {
   const { page } = lab;
   await page.evaluate(() => {
+    // the frame before the lab is shown: it is there, and may be asked for its figure
+    document.documentElement.dataset.lab = "loading";
     window.print = () => {
+      document.documentElement.dataset.lab = "running";
       window.dispatchEvent(new Event("beforeprint"));
       window.printed = true;
     };
