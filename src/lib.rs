@@ -92,6 +92,10 @@ pub mod recording {
 #[cfg(feature = "cli")]
 pub mod output;
 
+#[doc(hidden)]
+#[cfg(any(feature = "cli", feature = "web"))]
+pub mod json_words;
+
 #[cfg(feature = "cli")]
 pub mod batch;
 

@@ -8,6 +8,9 @@
 mod inputs;
 #[cfg_attr(not(feature = "web"), allow(dead_code))]
 mod link;
+#[cfg(any(all(target_family = "wasm", feature = "web"), all(feature = "cli", test)))]
+#[cfg_attr(test, allow(dead_code))]
+mod message;
 #[cfg(all(feature = "screen", any(target_family = "wasm", test)))]
 mod mirror;
 #[cfg(target_family = "wasm")]

@@ -7,11 +7,11 @@ use bevy_egui::egui::accesskit::{self, ActionData, ActionRequest, NodeId, TreeId
 use bevy_egui::{EguiInput, egui};
 use serde_json::{Value, json};
 
+use super::super::message::{Input, Message, PageRequest, WidgetAction};
 use super::downloads::picture;
 use super::error::PageError;
 use super::inbox::{Incoming, take_all, wake};
 use super::listener::tell;
-use super::message::{Input, Message, PageRequest, WidgetAction};
 use super::report::Sent;
 use super::run_link::{RunBefore, link_of, show_address};
 use crate::web::link::{Link, MAX_LINK_TICK};

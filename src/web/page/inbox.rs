@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use super::message::PageRequest;
+use super::super::message::PageRequest;
 
 /// An item from the page.
 pub enum Incoming {

@@ -11,12 +11,12 @@ use bevy_egui::EguiPreUpdateSet;
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
+use super::super::message::{Message, PageRequest};
 use super::canvas::add_plugins;
 use super::controls::{Staged, Touched, receive};
 use super::downloads::files;
 use super::inbox::{Incoming, put, wake, wake_by};
 use super::listener::{listen, tell};
-use super::message::{Message, PageRequest};
 use super::report::{Sent, report};
 use super::run_link::{RunBefore, show_address};
 use crate::web::link::{Link, ReadLink};
@@ -77,7 +77,7 @@ pub fn lab_send(message: &str) -> Result<(), JsError> {
     if message.len() > MAX_BYTES {
         return Err(JsError::new(&format!("a message of {} bytes; the lab takes up to {MAX_BYTES}", message.len())));
     }
-    let asked: PageRequest = serde_json::from_str(message).map_err(|e| JsError::new(&e.to_string()))?;
+    let asked = PageRequest::read(message).map_err(|reason| JsError::new(&reason))?;
     if asked.request.as_ref().is_some_and(|mark| mark.len() > MAX_OF_MARK) {
         return Err(JsError::new(&format!("request: a mark has up to {MAX_OF_MARK} bytes")));
     }

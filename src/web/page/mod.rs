@@ -7,6 +7,5 @@ mod error;
 mod inbox;
 mod lab;
 mod listener;
-mod message;
 mod report;
 mod run_link;

@@ -555,7 +555,7 @@ test("after a lost graphics context the run is back, paused at its tick; one los
 
 lab("no message makes the lab fail, and what is no message loses nothing", "/", async (lab) => {
   await lab.send({ do: "fail" });
-  await lab.page.waitForFunction(() => /unknown variant .fail/.test(document.getElementById("alert").textContent));
+  await lab.page.waitForFunction(() => /there is no .fail/.test(document.getElementById("alert").textContent));
   await lab.send({ do: "paste", text: "x".repeat(70000) });
   await lab.page.waitForFunction(() => /takes up to 65536/.test(document.getElementById("alert").textContent));
   // more than the lab reads in a frame is refused aloud, and it goes on

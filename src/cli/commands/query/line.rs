@@ -1,6 +1,7 @@
 //! A line of input: a configuration, or a motion between two.
 
 use motion_lab::geometry::MAX_COORDINATE;
+use motion_lab::json_words::in_words;
 use serde::Deserialize;
 
 /// The subject of a question: a configuration, or a motion from it.
@@ -23,36 +24,9 @@ pub fn parse_line(text: &str) -> Result<QuerySubject, String> {
     };
     read.map_err(|error| {
         // serde_json counts lines too; here there is only the one
-        let message = error.to_string();
-        let reason = message.split(" at line ").next().unwrap_or(&message);
-        let reason = in_words(reason);
+        let reason = in_words(&error.to_string());
         format!("column {}: {reason}; write [numbers] or {{\"q\": [numbers], \"to\": [numbers]}}", error.column())
     })
-}
-
-/// What a JSON reader found wrong, in the words of its readers.
-fn in_words(reason: &str) -> String {
-    let named = |before: &str| reason.strip_prefix(before)?.split('`').next();
-    if let Some(field) = named("missing field `") {
-        return format!("the field `{field}` is missing");
-    }
-    if let Some(field) = named("unknown field `") {
-        return format!("there is no field `{field}`");
-    }
-    if let Some(field) = named("duplicate field `") {
-        return format!("the field `{field}` is there twice");
-    }
-    if let Some((found, _)) = reason.strip_prefix("invalid type: ").and_then(|rest| rest.split_once(", expected")) {
-        let found = found.replace("floating point ", "").replace("sequence", "a list").replace("map", "an object");
-        return format!("{found} does not belong here");
-    }
-    match reason {
-        "expected value" | "expected ident" => "no value of JSON".to_owned(),
-        "trailing characters" => "the line goes on after its last bracket".to_owned(),
-        reason if reason.starts_with("EOF") => "the line ends too early".to_owned(),
-        reason if reason.starts_with("expected ") => format!("{} belongs here", &reason["expected ".len()..]),
-        reason => reason.to_owned(),
-    }
 }
 
 /// Checks that the numbers are finite, and that the first two, a place, are within the coordinates the lab computes
@@ -89,7 +63,7 @@ mod tests {
     fn what_is_wrong_is_named() {
         for (text, reason) in [
             ("[1, x]", "column 5: no value of JSON; "),
-            ("[1, null]", "column 8: null does not belong here; "),
+            ("[1, null]", "column 8: null does not belong here, a number does; "),
             ("[1e999]", "number out of range"),
             (r#"{"q": [1], "two": [1]}"#, "there is no field `two`; "),
             (r#"{"to": [1]}"#, "the field `q` is missing; "),

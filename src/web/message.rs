@@ -1,7 +1,9 @@
 //! `Message`, a request of a page to the lab. docs/web/messages.md has those that a page around a frame may make.
 
 use serde::Deserialize;
+use serde_json::{Map, Value};
 
+use crate::json_words::in_words;
 use motion_lab_sim::run::{Quantized, RobotInput};
 
 /// A request, with what stands beside it.
@@ -17,6 +19,37 @@ pub struct PageRequest {
     /// the lab's own.
     #[serde(default)]
     pub around: bool,
+}
+
+impl PageRequest {
+    /// Reads a request, or says in words which field of which message is wrong.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let Value::Object(fields) = serde_json::from_str(text).map_err(|error| in_words(&error.to_string()))? else {
+            return Err("a message is an object, with its name under `do`".to_owned());
+        };
+        // serde would take a number for the message's place among them
+        if !fields.get("do").is_some_and(Value::is_string) {
+            return Err("the field `do` is missing, a text: the name of the message".to_owned());
+        }
+        let read = |fields: &Map<String, Value>| {
+            serde_json::from_value::<Self>(Value::Object(fields.clone())).map_err(|error| error.to_string())
+        };
+        read(&fields).map_err(|reason| {
+            // the reader does not say which field it is about: the one without which it finds nothing, or something else
+            let is_about = |name: &String| {
+                let mut others = fields.clone();
+                others.remove(name);
+                read(&others).err().as_ref() != Some(&reason)
+            };
+            let field = fields.keys().filter(|name| *name != "do").find(|name| is_about(name));
+            let told = fields
+                .get("do")
+                .and_then(Value::as_str)
+                .filter(|_| field.is_some() || !reason.starts_with("unknown variant"));
+            let place = [told, field.map(String::as_str)].into_iter().flatten().map(|name| format!("{name}: "));
+            format!("{}{}", place.collect::<String>(), in_words(&reason))
+        })
+    }
 }
 
 /// A request of a page: a JSON object with its name under `do`.
@@ -204,4 +237,44 @@ pub enum WidgetAction {
     Set,
     /// Put this text in place of its own.
     Type,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refusal_names_message_and_field() {
+        for (text, said) in [
+            (r#"{"do": "seek", "tick": "5"}"#, "seek: tick: the text \"5\" does not belong here, a whole number does"),
+            (r#"{"do": "seek"}"#, "seek: the field `tick` is missing"),
+            (r#"{"do": "fail", "tick": 5}"#, "there is no `fail`"),
+            (r#"{"tick": 5}"#, "the field `do` is missing"),
+            (r#"{"do": 7}"#, "the field `do` is missing, a text"),
+            (r#"{"do": "play", "request": 7}"#, "play: request: the number `7` does not belong here, a text does"),
+            (
+                r#"{"do": "configuration", "coordinates": [0, "x"]}"#,
+                "configuration: coordinates: the text \"x\" does not",
+            ),
+            (r#"{"do": "robot", "robot": "Rusty", "drive": [1]}"#, "robot: drive: a list of 1 does not belong here"),
+            (r#"{"do": "robot", "robot": "Rusty", "dirve": [1, 2]}"#, "robot: "),
+            (r#"{"do": "act", "id": "1", "action": "prss"}"#, "act: action: there is no `prss`"),
+            ("[]", "a message is an object, with its name under `do`"),
+            ("{", "the line ends too early"),
+        ] {
+            let error = PageRequest::read(text).unwrap_err();
+            assert!(error.starts_with(said), "{text}: {error}");
+            assert!(
+                !["variant", "u64", "i16", "enum", "struct"].iter().any(|word| error.contains(word)),
+                "{text}: {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_message_is_read_with_its_mark() {
+        let read = PageRequest::read(r#"{"do": "seek", "tick": 5, "request": "a", "around": true}"#);
+        let message = Message::Seek { tick: 5 };
+        assert_eq!(read, Ok(PageRequest { message, request: Some("a".to_owned()), around: true }));
+    }
 }
