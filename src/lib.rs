@@ -89,12 +89,12 @@ pub mod recording {
 
 // the program's own; public because the program is a crate of its own
 #[doc(hidden)]
-#[cfg(feature = "cli")]
-pub mod output;
-
-#[doc(hidden)]
 #[cfg(any(feature = "cli", feature = "web"))]
 pub mod json_words;
+
+#[doc(hidden)]
+#[cfg(feature = "cli")]
+pub mod output;
 
 #[cfg(feature = "cli")]
 pub mod batch;

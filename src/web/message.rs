@@ -35,7 +35,7 @@ impl PageRequest {
             serde_json::from_value::<Self>(Value::Object(fields.clone())).map_err(|error| error.to_string())
         };
         read(&fields).map_err(|reason| {
-            // the reader does not say which field it is about: the one without which it finds nothing, or something else
+            // serde does not say which field it is about: the one without which it finds nothing, or something else
             let is_about = |name: &String| {
                 let mut others = fields.clone();
                 others.remove(name);

@@ -57,7 +57,7 @@ const ORDER: [(&str, &[&str]); 5] = [
     ),
     ("motion_lab_import", &["error", "draft", "yaml", "map", "irsim", "planar", "svg"]),
     ("motion_lab_raster", &["error", "few_colours", "painter", "files"]),
-    ("motion_lab", &["output", "batch", "capture", "window", "web", "guide", "cli"]),
+    ("motion_lab", &["json_words", "output", "batch", "capture", "window", "web", "guide", "cli"]),
 ];
 
 /// The rooms of the simulator that use neither Bevy nor the simulator itself.
