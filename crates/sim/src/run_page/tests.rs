@@ -5,9 +5,11 @@ use std::sync::Arc;
 use base64::prelude::{BASE64_STANDARD, Engine};
 
 use super::*;
+use crate::capture::run_svg;
 use crate::recording::{Run, verify};
 use crate::run::{Event, Log, LogKind, Recipe, RobotInput, Script};
 use crate::tour::TourConfig;
+use motion_lab_core::picture::Theme;
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::World;
 
@@ -51,9 +53,9 @@ fn a_page_holds_its_run_which_verifies_and_nothing_else_of_the_template_changes(
     let (values, left) = held(&page);
     assert_eq!(values[0], "%0%", "the simulator's print is the template's");
     assert_eq!(values[1..4], ["7", "30", &recorded.digest().unwrap().to_string()]);
-    for (figure, paper) in [(values[4], "#161b22"), (values[5], "#ffffff")] {
+    for (figure, theme) in [(values[4], Theme::Dark), (values[5], Theme::Light)] {
         let svg = String::from_utf8(BASE64_STANDARD.decode(figure).unwrap()).unwrap();
-        assert!(svg.starts_with("<svg") && svg.contains(paper) && svg.contains(values[3]), "{svg:.300}");
+        assert!(svg == run_svg(&recorded, 30, theme, |_| {}).unwrap(), "{theme:?}, as of the recorded frames");
     }
     assert_eq!(left, held(&text()).1);
     let log = Log::read_mcap(page.as_bytes()).unwrap().log;
