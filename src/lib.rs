@@ -71,7 +71,7 @@ pub use motion_lab_core::{
 pub use motion_lab_core::{names, one_line, text_position};
 #[doc(hidden)]
 pub use motion_lab_sim::manifest;
-pub use motion_lab_sim::{anatomy, atlas, avoid, course, export, plans, run, shrink, simulation, tour};
+pub use motion_lab_sim::{anatomy, atlas, avoid, course, export, plans, run, run_page, shrink, simulation, tour};
 
 /// Worlds: lists of named geometry, never bitmaps.
 pub mod worlds {

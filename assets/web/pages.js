@@ -26,33 +26,15 @@ async function through(bytes, stream) {
   }
 }
 
-/**
- * A page that holds the run of these parts, as the simulator alone (`light`) takes them, and simulates it again in whatever browser opens
- * it. It holds a digest of each second instead of the frames, and all of it compressed: a twentieth of the log.
- */
+/** A page that holds the run of these parts, as the simulator alone (`light`) writes it: the program writes the same bytes. */
 export async function savedPage(light, parts, files) {
-  const log = light.record_digests(parts);
-  const found = JSON.parse(light.verify_log(log));
   const fetched = async (name) => {
     const response = await fetch(name);
     if (!response.ok) throw new Error(`${name}: ${response.status} ${response.statusText}`);
     return new Uint8Array(await response.arrayBuffer());
   };
   const template = new TextDecoder().decode(await fetched(files.saved));
-  const packed = async (bytes) => base64(await through(bytes, new CompressionStream("gzip")));
-  const run = new light.Replay(log);
-  const figure = (dark) => base64(new TextEncoder().encode(run.at(BigInt(found.ticks), dark)));
-  const values = {
-    SEED: found.seed,
-    TICKS: found.ticks,
-    DIGEST: found.digest,
-    FIGURE: figure(false),
-    DARK: figure(true),
-    WASM: await packed(await fetched(files.lightWasm)),
-    LOG: await packed(log),
-  };
-  run.free();
-  return template.replace(/%(SEED|TICKS|DIGEST|FIGURE|DARK|WASM|LOG)%/g, (_, name) => values[name]);
+  return light.run_page(parts, template, await fetched(files.lightWasm));
 }
 
 /** The log in the text of such a page; an earlier one's was not compressed. */

@@ -6,6 +6,7 @@ import { dirname, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { brotliCompressSync, constants } from "node:zlib";
 import { policy } from "./policy.mjs";
+import { runPage } from "./run_page.mjs";
 
 /** The most that the whole site may weigh, compressed. */
 const BUDGET = 4.2 * 1000 * 1000;
@@ -89,17 +90,13 @@ const files = {
 const weight = weights.find((w) => w.name === files.labWasm);
 Object.assign(files, { labBytes: weight.raw, labSent: weight.compressed });
 
-// the page that a run is saved in: its script and style are fixed, so their hashes are too
-const script = `${readFileSync(join(parts, "light.js"), "utf8")}\n${source("saved.js")}`;
-const hash = (text) => `sha256-${createHash("sha256").update(text).digest("base64")}`;
-if (script.includes("</script")) throw new Error("the script would end itself");
-const css = source("saved.css");
-const saved = fill(source("saved.html"), { script, style: css, "script-hash": hash(script), "style-hash": hash(css) });
-files.saved = hashed("saved.html", saved, "the simulator alone");
+// the page that a run is saved in
+files.saved = hashed("saved.html", runPage(parts).text, "the simulator alone");
 files.widgets = Object.fromEntries(lab.widgets.map((w) => [w.id, { title: w.title, key: w.key, description: w.description, misconception: w.misconception, lessons: w.lessons }]));
 
 const picture = (w) => (w === front ? within(inBoth(w.id), w.description) : `<img src="${pictures[w.id]}" loading="lazy" alt="${escape(w.description)}">`);
 const opening = source("opening.js");
+const hash = (text) => `sha256-${createHash("sha256").update(text).digest("base64")}`;
 // the modules that a script imports have hashes in their names, too
 const modules = {};
 const linked = (name) => source(name).replace(/(from |import\()"\.\/([\w-]+\.js)"/g, (_, how, other) => `${how}"./${modules[other]}"`);

@@ -1,4 +1,4 @@
-//! Runs as the light WebAssembly build exports them: recorded from their parts, verified, drawn.
+//! Runs as the light WebAssembly build exports them: recorded from their parts, verified, drawn, put into pages.
 
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
@@ -8,6 +8,8 @@ use motion_lab_core::picture::Theme;
 use motion_lab_sim::capture::RunFigure;
 use motion_lab_sim::recording::{Recorder, RunError, RunParts, TickDigests, Verification, verify};
 use motion_lab_sim::run::{Difference, Log, LogError, LogKind, LogWriter, Recipe, RunDigest};
+#[cfg(not(feature = "web"))]
+use motion_lab_sim::run_page::PageTemplate;
 
 /// Why no log came of a run.
 #[derive(Debug, thiserror::Error)]
@@ -65,13 +67,25 @@ pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
     written(&recipe, LogKind::usual(&recipe.config)).map_err(error)
 }
 
-/// The bytes of the log of such a run with a digest of each second instead of its frames: a fiftieth of them.
+/// The page that holds such a run: see [`PageTemplate`]. It is made of the text of a template and the bytes of this
+/// module.
 ///
 /// # Errors
-/// The reason, when a part is refused.
+/// The reason, when a part or the template is refused.
+#[cfg(not(feature = "web"))]
 #[wasm_bindgen]
-pub fn record_digests(parts: &str) -> Result<Vec<u8>, JsError> {
-    written(&recipe_of(parts)?, LogKind::Digests).map_err(error)
+pub fn run_page(parts: &str, template: String, module: &[u8]) -> Result<String, JsError> {
+    PageTemplate::of(template, module).map_err(error)?.page(&recipe_of(parts)?, |_| {}).map_err(error)
+}
+
+/// Which simulator this is: see [`simulator_print`](motion_lab_sim::run_page::simulator_print).
+///
+/// # Errors
+/// A fault of the library.
+#[cfg(not(feature = "web"))]
+#[wasm_bindgen]
+pub fn simulator_print() -> Result<String, JsError> {
+    motion_lab_sim::run_page::simulator_print().map_err(error)
 }
 
 /// The bytes of the log of the run that the query of an address stands for, with a digest of each second.

@@ -53,6 +53,7 @@ const ORDER: [(&str, &[&str]); 5] = [
             "avoid",
             "manifest",
             "capture",
+            "run_page",
         ],
     ),
     ("motion_lab_import", &["error", "draft", "yaml", "map", "irsim", "planar", "svg"]),

@@ -45,3 +45,5 @@ pub mod avoid;
 pub mod manifest;
 
 pub mod capture;
+
+pub mod run_page;

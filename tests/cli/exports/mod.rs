@@ -4,6 +4,7 @@ pub mod export;
 pub mod format_list;
 pub mod library_exports;
 pub mod messages;
+pub mod pages;
 pub mod rerun;
 pub mod stills;
 pub mod viewer;

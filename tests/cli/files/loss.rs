@@ -7,10 +7,11 @@ use std::path::Path;
 use crate::cli::{Run, command, ended, run, run_in, run_with};
 
 /// Options and arguments that name files to read.
-const READ: [&str; 10] = [
+const READ: [&str; 11] = [
     "record --world",
     "record --script",
     "record --resume",
+    "export --template",
     "query --world",
     "query --input",
     "plan --world",
@@ -43,6 +44,8 @@ const WRITTEN: [(&str, &[(&str, &str)]); 25] = [
             ("export IN --format foxglove -o OUT", "run.mcap"),
             ("export IN --format rerun -o OUT", "run.mcap"),
             ("export IN -o OUT --every 9 --format gif", "run.mcap"),
+            ("export IN --format html -o OUT", "run.mcap"),
+            ("export run.mcap --format html --template IN -o OUT", "wb.ron"),
         ],
     ),
     ("why --output", &[("why IN --robot Reach --contact 1 -o OUT", "run.mcap")]),

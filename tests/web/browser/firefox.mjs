@@ -2,7 +2,8 @@
 import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
 import { serve } from "../../../assets/web/serve.mjs";
 import { lines } from "../../determinism/lines.cjs";
 
@@ -47,7 +48,7 @@ try {
   const { context } = await call("browsingContext.create", { type: "tab" });
   // a tab behind another draws nothing
   await call("browsingContext.activate", { context });
-  const go = (path) => within(60000, path, call("browsingContext.navigate", { context, url: origin + path, wait: "complete" }));
+  const go = (path) => within(60000, path, call("browsingContext.navigate", { context, url: new URL(path, origin).href, wait: "complete" }));
   /** What a function of the page returns, as text. */
   const ask = async (body, ...words) => {
     const expression = `(${body})(...${JSON.stringify(words)})`;
@@ -55,6 +56,18 @@ try {
     if (exceptionDetails) throw new Error(exceptionDetails.text);
     return result.value;
   };
+
+  // runs as pages, from the disk
+  for (const page of process.argv.slice(2)) {
+    await go(pathToFileURL(resolve(page)).href);
+    const verdict = ask(async () => {
+      while (!document.documentElement.dataset.verdict) await new Promise((next) => setTimeout(next, 100));
+      return document.getElementById("verdict").textContent;
+    });
+    const said = await within(120000, page, verdict);
+    console.error(`Firefox ${capabilities.browserVersion}: ${page}: ${said}`);
+    if (!said.startsWith("Verified")) process.exitCode = 1;
+  }
 
   await go("/widgets.html");
   const files = /id="files">(.*?)<\/script>/s.exec(await (await fetch(`${origin}/index.html`)).text())[1];

@@ -1,5 +1,6 @@
 //! `export`: a log in the forms that other programs read.
 
+mod page;
 mod sink;
 mod stills;
 
@@ -10,12 +11,13 @@ use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_j
 use motion_lab::run::Log;
 
 use crate::cli::support::input::{is_dash, read_bytes};
-use crate::cli::support::log_source::{LogSource, MAX_LOG, read_full_log, say_damage};
-use crate::cli::support::output::ReportedFile;
+use crate::cli::support::log_source::{LogSource, MAX_LOG, read_full_log, read_log, say_damage};
+use crate::cli::support::output::{ReportedFile, write_file};
 use crate::cli::support::progress::{CommandProgress, CountedWriter};
 use crate::cli::support::simulate::not_shown;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome};
+use page::PageArgs;
 use sink::ExportSink;
 use stills::StillArgs;
 
@@ -30,11 +32,12 @@ Examples:
   motion-lab export run.mcap -o run.csv
   motion-lab export run.mcap --tick 300 --theme dark --names -o run.png
   motion-lab export run.mcap --format gif --every 10 -o - > run.gif
+  motion-lab export run.mcap -o run.html
   motion-lab export run.mcap --format jsonl | head -1")]
 pub struct Export {
-    /// The log; `-` is standard input.
+    /// The log, or a page that holds one; `-` is standard input.
     file: PathBuf,
-    /// The form. [default: by the output's name: .jsonl, .csv, .svg, .png, .gif; .mcap is foxglove]
+    /// The form. [default: by the output's name: .jsonl, .csv, .svg, .png, .gif, .html; .mcap is foxglove]
     #[arg(long)]
     format: Option<ExportFormat>,
     /// Write to this file; `-`, or none, is standard output.
@@ -45,6 +48,8 @@ pub struct Export {
     ranges: bool,
     #[command(flatten)]
     stills: StillArgs,
+    #[command(flatten)]
+    page: PageArgs,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -59,6 +64,10 @@ enum ExportFormat {
     Png,
     /// The run as it goes: the same figure at tick after tick.
     Gif,
+    /// A page that any browser opens without a network. It holds the run and the simulator, simulates the run again,
+    /// says whether every second comes out the same, and plays it. The lab opens it, and whatever reads a log reads it.
+    /// Logs of digests have this form, too.
+    Html,
     /// An MCAP file for Foxglove and Lichtblick: the log's own channels, and transforms, scans, scenes and log messages
     /// by Foxglove's schemas. It is not a log that `verify` reads.
     Foxglove,
@@ -75,6 +84,7 @@ impl ExportFormat {
             "svg" => ExportFormat::Svg,
             "png" => ExportFormat::Png,
             "gif" => ExportFormat::Gif,
+            "html" | "htm" => ExportFormat::Html,
             "mcap" => ExportFormat::Foxglove,
             _ => return None,
         })
@@ -89,7 +99,7 @@ impl Export {
             return Err(match output {
                 Some(path) => Failure::usage(
                     format!("{}: its name does not tell the form", path.display()),
-                    "Say it with --format: jsonl, csv, svg, png, gif, foxglove or rerun.",
+                    "Say it with --format: jsonl, csv, svg, png, gif, html, foxglove or rerun.",
                 ),
                 None => Failure::usage("no form is named", "Name a file with -o FILE, or say the form with --format."),
             });
@@ -100,17 +110,26 @@ impl Export {
                 "Leave it out: jsonl, foxglove and rerun always hold them.",
             ));
         }
+        if self.page.template.is_some() && format != ExportFormat::Html {
+            return Err(Failure::usage("--template is only valid with --format html", "Leave it out."));
+        }
         if matches!(format, ExportFormat::Foxglove | ExportFormat::Rerun) && output.is_none() {
             return Err(Failure::usage("this form is not for standard output", "Name a file: -o FILE."));
         }
-        let LogSource { log, damage, .. } = read_full_log(&self.file)?;
+        let read = if format == ExportFormat::Html { read_log } else { read_full_log };
+        let source = read(&self.file)?;
+        let LogSource { log, damage, .. } = &source;
         say_damage(damage.as_ref(), "exported");
-        let (file, log) = (&self.file, &log);
+        let file = &self.file;
         let target = Target::of(output.unwrap_or(Path::new("-")))?;
         match (format, output) {
             (ExportFormat::Foxglove | ExportFormat::Rerun, _) => viewer(format, file, log, &target)?,
             (ExportFormat::Png, _) => stills::png(&self.stills, file, log, &target)?,
             (ExportFormat::Gif, _) => stills::gif(&self.stills, file, log, &target)?,
+            (ExportFormat::Html, _) => match page::page(&self.page, file, log)? {
+                Some(page) => write_file(&target, page.as_bytes())?,
+                None => return Ok(Outcome::Differs),
+            },
             (format, output) => {
                 let is_terminal = data.is_terminal();
                 let mut sink = ExportSink::new(output.map(|_| &target), data)?;
@@ -136,7 +155,7 @@ impl Export {
                 sink.finish()?;
             }
         }
-        if output.is_some() || matches!(format, ExportFormat::Png | ExportFormat::Gif) {
+        if output.is_some() || matches!(format, ExportFormat::Png | ExportFormat::Gif | ExportFormat::Html) {
             target.finish(data)?;
         }
         Ok(if damage.is_some() { Outcome::Recovered } else { Outcome::Done })
