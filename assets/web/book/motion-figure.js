@@ -15,7 +15,8 @@ let front = null; // the figure that it serves
 let untaken = null; // the mark of an address that the lab has not taken yet: its states are still another figure's
 let count = 0;
 
-const ask = (message) => frame?.contentWindow.postMessage({ motionLab: message }, LAB.origin);
+// pages of a folder are of no origin
+const ask = (message) => frame?.contentWindow.postMessage({ motionLab: message }, LAB.origin === "null" ? "*" : LAB.origin);
 
 /** Asks with a mark for what comes of it. */
 function askFor(figure, message) {
