@@ -14,7 +14,7 @@ const HEARD = "ready state lesson figure link saved leave done error failed".spl
  */
 export function around({ ask, askReader, refuse }) {
   const isFramed = parent !== window;
-  let origin = !isFramed ? location.origin : (location.ancestorOrigins?.[0] ?? originOf(document.referrer));
+  let origin = isFramed ? originAround() : location.origin;
   const missed = []; // what was said before the origin was known
   const tell = (message) => {
     if (!isFramed || !HEARD.includes(message.kind)) return;
@@ -39,7 +39,18 @@ export function around({ ask, askReader, refuse }) {
   return tell;
 }
 
-export function originOf(address) {
+/** The origin of the page around a frame as far as the browser says it; null where it does not. */
+export function originAround() {
+  const said = location.ancestorOrigins?.[0] ?? originOf(document.referrer);
+  if (said) return said;
+  try {
+    return parent.location.origin; // a page of this one's origin can be read
+  } catch {
+    return null;
+  }
+}
+
+function originOf(address) {
   try {
     return new URL(address).origin;
   } catch {

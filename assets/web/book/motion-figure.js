@@ -5,6 +5,8 @@
 
 /** Where the lab is: beside this file. */
 const LAB = new URL(".", import.meta.url);
+/** Its pages' origin; those of a folder have none, which browsers write so. */
+const ORIGIN = LAB.protocol === "file:" ? "null" : LAB.origin;
 
 const figures = new Set(); // those in the page
 const kept = new WeakMap(); // the address of each figure as its reader left it
@@ -15,7 +17,7 @@ let front = null; // the figure that it serves
 let untaken = null; // the mark of an address that the lab has not taken yet: its states are still another figure's
 let count = 0;
 
-const ask = (message) => frame?.contentWindow.postMessage({ motionLab: message }, LAB.origin);
+const ask = (message) => frame?.contentWindow.postMessage({ motionLab: message }, ORIGIN === "null" ? "*" : ORIGIN);
 
 /** Asks with a mark for what comes of it. */
 function askFor(figure, message) {
@@ -122,7 +124,7 @@ const hear = {
 };
 addEventListener("message", ({ source, origin, data }) => {
   const said = data?.motionLab;
-  if (!said || !frame || source !== frame.contentWindow || origin !== LAB.origin) return;
+  if (!said || !frame || source !== frame.contentWindow || origin !== ORIGIN) return;
   hear[said.kind]?.(said);
   const isOurs = marks.delete(said.request);
   if (isOurs && said.request === untaken) untaken = null;

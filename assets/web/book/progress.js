@@ -1,5 +1,5 @@
 // What a reader has done: a dot for each section, the answers to its questions, kept for the next visit and told to a page around.
-import { originOf } from "./around.js";
+import { originAround } from "./around.js";
 import { printed } from "./live.js";
 
 const KEPT = "motion-lab/book";
@@ -11,6 +11,12 @@ function kept() {
   } catch {
     return new Set();
   }
+}
+
+/** Tells a page around, if there is one that the browser names. Pages of a folder are of no origin. */
+function tellAround(message) {
+  const origin = parent === window ? null : originAround();
+  if (origin) parent.postMessage({ motionLab: message }, origin === "null" ? "*" : origin);
 }
 
 /** Makes the dots of the sections under `headings`, whose tasks are figures with lessons or tasks, and questions. */
@@ -32,9 +38,8 @@ export function progress({ headings, figures }) {
       dot.toggleAttribute("data-part", count > 0 && count < own.length);
       dot.firstElementChild.title = own.length ? `${heading.textContent}: ${count} of ${own.length} done` : heading.textContent;
     }
-    const origin = parent === window ? null : (location.ancestorOrigins?.[0] ?? originOf(document.referrer));
     const known = tasks.map(([name]) => name);
-    if (origin && origin !== "null") parent.postMessage({ motionLab: { kind: "progress", done: known.filter((name) => done.has(name)), of: known } }, origin);
+    tellAround({ kind: "progress", done: known.filter((name) => done.has(name)), of: known });
   }
 
   const add = (name) => {
@@ -65,6 +70,7 @@ function ask(answer, done) {
     const near = Math.abs(given - parseFloat(right.replace("−", "-"))) <= 0.5 * 10 ** -Math.min(decimals, decimalsOf(input.value));
     input.setAttribute("aria-invalid", String(!near));
     output.textContent = near ? `Right: ${right}.` : "Not yet.";
+    tellAround({ kind: "answer", name: answer.dataset.task, given, wanted: parseFloat(right.replace("−", "-")), right: near });
     if (near) done();
   });
 }
