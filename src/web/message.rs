@@ -257,7 +257,7 @@ mod tests {
                 "configuration: coordinates: the text \"x\" does not",
             ),
             (r#"{"do": "robot", "robot": "Rusty", "drive": [1]}"#, "robot: drive: a list of 1 does not belong here"),
-            (r#"{"do": "robot", "robot": "Rusty", "dirve": [1, 2]}"#, "robot: "),
+            (r#"{"do": "robot", "robot": "Rusty", "drives": [1, 2]}"#, "robot: "),
             (r#"{"do": "act", "id": "1", "action": "prss"}"#, "act: action: there is no `prss`"),
             ("[]", "a message is an object, with its name under `do`"),
             ("{", "the line ends too early"),
