@@ -28,6 +28,6 @@ export function judge({ robot: name, at, within, hold, ticks, contacts }) {
     if (since !== null) return { isDone: false, text: "It is there: let it stand for a second." };
     const far = (i, length) => (angles.includes(i) ? `${((length * 180) / Math.PI).toFixed(0)}°` : `${length.toFixed(2)} m`);
     const missing = away.flatMap((length, i) => (length > within[i] ? [far(i, length)] : []));
-    return { isDone: false, text: `Off by ${missing.join(" and ")}; ${Math.ceil((ticks - tick) / TICKS_PER_SECOND)} s are left.` };
+    return { isDone: false, isUnderWay: true, text: `Off by ${missing.join(" and ")}; ${Math.ceil((ticks - tick) / TICKS_PER_SECOND)} s are left.` };
   };
 }

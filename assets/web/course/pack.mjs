@@ -63,11 +63,15 @@ function list(name) {
   return `<section><h2>${PARTS[name]}<small id="share-${name}"></small></h2>\n<p>${INTRODUCTIONS[name]}${first}</p>\n${grouped}</section>`;
 }
 
-/** The teacher's page, of the page in docs: links to pages that are not in the pack are words. */
+/** The teacher's page, of the page in docs but its last section: links to pages that are not in the pack are words. */
 function teacher() {
   const require = createRequire(`${modules}/`);
   const markdown = require("markdown-it")({ html: false });
-  const text = readFileSync(join(root, "docs/web/pack.md"), "utf8").replace(/\[([^\]]*)\]\((?!https?:|#)[^)]*\)/g, "$1");
+  // on a phone these scroll, by keys too
+  markdown.renderer.rules.table_open = () => `<table tabindex="0">\n`;
+  markdown.renderer.rules.fence = (tokens, i) => `<pre tabindex="0"><code>${escape(tokens[i].content)}</code></pre>\n`;
+  const [page] = readFileSync(join(root, "docs/web/pack.md"), "utf8").split("\n## Make the pack\n");
+  const text = page.replace(/\[([^\]]*)\]\((?!https?:|#)[^)]*\)/g, "$1");
   return fill(source("teacher.html"), { style, policy: policy(hash(""), hash(style)), body: markdown.render(text), title: escape(text.match(/^# (.+)$/m)[1]), icon });
 }
 

@@ -91,7 +91,7 @@ function go() {
   remindBook();
   $("task-title").textContent = wanted.name;
   $("task-words").textContent = wanted.words ?? "";
-  $("task-far").textContent = open && record.has(open.id) ? "Done." : "";
+  tell(open && record.has(open.id) ? "Done." : "");
   $("task-tools").hidden = !open?.goal;
   const frame = document.createElement("iframe");
   frame.allow = "clipboard-write";
@@ -102,6 +102,11 @@ function go() {
 }
 
 // ---- what the frame tells ----
+
+/** Shows how far the task is. Who listens hears what changed, and not each centimetre. */
+function tell(text, heard = text) {
+  for (const [id, words] of [["task-far", text], ["task-said", heard]]) if ($(id).textContent !== words) $(id).textContent = words;
+}
 
 const byBook = new Map(items.filter(({ inBook }) => inBook).map((item) => [item.inBook, item.id]));
 const hear = {
@@ -114,12 +119,12 @@ const hear = {
   lesson({ id, done, seconds }) {
     if (!done) return;
     record.add(id, { seconds });
-    if (open?.lesson === id) $("task-far").textContent = "Done.";
+    if (open?.lesson === id) tell("Done.");
   },
   state(state) {
     const found = judged?.(state);
     if (!found) return;
-    if ($("task-far").textContent !== found.text) $("task-far").textContent = found.text;
+    tell(found.text, found.isUnderWay ? "" : found.text);
     if (found.isDone) record.add(open.id, { given: `tick ${state.tick}` });
   },
 };

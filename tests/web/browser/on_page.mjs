@@ -1,5 +1,6 @@
 // Tests on pages of their own.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { Lab } from "./harness.mjs";
 
@@ -23,4 +24,15 @@ export const digestOf = (text) => /digest ([0-9a-f]{32})/.exec(text)[1];
 export async function download(page, act) {
   const [file] = await Promise.all([page.waitForEvent("download"), act()]);
   return { name: file.suggestedFilename(), path: await file.path() };
+}
+
+const AXE = readFileSync(process.env.MOTION_LAB_AXE, "utf8");
+const RULES = { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] };
+
+/** What axe-core finds wrong with a page; its rules for contrast look at what is not canvas. */
+export async function wrong(page) {
+  await page.evaluate(AXE);
+  const { violations, passes } = await page.evaluate((rules) => window.axe.run(document, rules), RULES);
+  assert.ok(passes.length > 10, "axe has looked");
+  return violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 4).join(", ")}`);
 }

@@ -4,21 +4,10 @@ import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { join } from "node:path";
 import { Lab, begin, end, native, newBrowser, origin, shots } from "./harness.mjs";
-import { digestOf, download, lab } from "./on_page.mjs";
+import { digestOf, download, lab, wrong } from "./on_page.mjs";
 
 before(begin);
 after(end);
-
-const AXE = readFileSync(process.env.MOTION_LAB_AXE, "utf8");
-const RULES = { runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"] };
-
-/** What axe-core finds wrong with a page; its rules for contrast look at what is not canvas. */
-async function wrong(page) {
-  await page.evaluate(AXE);
-  const { violations, passes } = await page.evaluate((rules) => window.axe.run(document, rules), RULES);
-  assert.ok(passes.length > 10, "axe has looked");
-  return violations.map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(" ")).slice(0, 4).join(", ")}`);
-}
 
 for (const scheme of ["light", "dark"]) {
   test(`axe finds nothing wrong: ${scheme}`, { timeout: 240000 }, async () => {
