@@ -140,6 +140,8 @@ lab("a figure is one stop of Tab: Enter goes in, Escape out", "/", async ({ page
   await page.keyboard.press("Enter");
   await page.waitForSelector("iframe:not([data-waits])", { timeout: 90000 });
   await page.waitForFunction(() => document.activeElement.matches("iframe"));
+  // the keys come to the frame a moment after the page says so
+  await seen(page.frames()[1], () => document.hasFocus());
   await page.keyboard.press("Escape");
   await page.waitForFunction(() => document.activeElement.matches("#witness motion-figure a"));
   await page.keyboard.press("Tab");

@@ -60,6 +60,8 @@ lab("a page of another origin has figures that share one lab, hears and moves th
   await heard("a", "query.coordinates", "0.25,1.5");
   // Escape comes out of the frame of another origin, too
   await page.waitForFunction(() => document.activeElement.matches("iframe"));
+  // the keys come to the frame a moment after the page says so
+  await seen(frame, () => document.hasFocus());
   await page.keyboard.press("Escape");
   await page.waitForFunction(() => document.activeElement.matches("#a a"));
 
