@@ -3,7 +3,7 @@
 /// A value of a page. Each stands once in the page, between two texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PageValue {
-    /// Which simulator the page holds: [`simulator_print`](super::simulator_print).
+    /// Which simulator the page holds: [`simulator_print`](super::simulator_print()).
     Print,
     /// The run's seed.
     Seed,

@@ -70,7 +70,7 @@ impl PageTemplate {
         Ok(PageTemplate { text, places, simulator })
     }
 
-    /// Which simulator it holds, as it says itself: see [`simulator_print`].
+    /// Which simulator it holds, as it says itself: see [`simulator_print()`].
     pub fn print(&self) -> &str {
         &self.text[self.places[0].clone()]
     }
