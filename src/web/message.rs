@@ -35,18 +35,23 @@ impl PageRequest {
             serde_json::from_value::<Self>(Value::Object(fields.clone())).map_err(|error| error.to_string())
         };
         read(&fields).map_err(|reason| {
-            // serde does not say which field it is about: the one without which it finds nothing, or something else
-            let is_about = |name: &String| {
+            // serde does not say which field it is about: one without which it finds something else, and not just that
+            // field's lack, which it may find before the fault
+            let without = |name: &String| {
                 let mut others = fields.clone();
                 others.remove(name);
-                read(&others).err().as_ref() != Some(&reason)
+                read(&others).err()
             };
-            let field = fields.keys().filter(|name| *name != "do").find(|name| is_about(name));
+            let is_of_a_field = reason.starts_with("invalid ") || reason.starts_with("unknown variant");
+            let names = fields.keys().filter(|name| is_of_a_field && *name != "do");
+            let blamed: Vec<&String> = names.filter(|name| without(name).as_ref() != Some(&reason)).collect();
+            let is_lack = |name: &String| without(name) == Some(format!("missing field `{name}`"));
+            let field = blamed.iter().find(|name| !is_lack(name)).or(blamed.first());
             let told = fields
                 .get("do")
                 .and_then(Value::as_str)
                 .filter(|_| field.is_some() || !reason.starts_with("unknown variant"));
-            let place = [told, field.map(String::as_str)].into_iter().flatten().map(|name| format!("{name}: "));
+            let place = [told, field.map(|name| name.as_str())].into_iter().flatten().map(|name| format!("{name}: "));
             format!("{}{}", place.collect::<String>(), in_words(&reason))
         })
     }
@@ -257,7 +262,14 @@ mod tests {
                 "configuration: coordinates: the text \"x\" does not",
             ),
             (r#"{"do": "robot", "robot": "Rusty", "drive": [1]}"#, "robot: drive: a list of 1 does not belong here"),
-            (r#"{"do": "robot", "robot": "Rusty", "drives": [1, 2]}"#, "robot: "),
+            (r#"{"do": "robot", "robot": "Rusty", "drives": [1, 2]}"#, "robot: what it is to do is missing"),
+            (
+                r#"{"do": "robot", "robot": "Rusty", "teleport": "x"}"#,
+                "robot: teleport: the text \"x\" does not belong",
+            ),
+            (r#"{"do": "robot", "robot": 5, "teleport": [1]}"#, "robot: robot: the number `5` does not belong here"),
+            (r#"{"do": "door", "world": "Lot", "open": true}"#, "door: the field `name` is missing"),
+            (r#"{"do": "figure", "png": -1}"#, "figure: png: the number `-1` does not belong here"),
             (r#"{"do": "act", "id": "1", "action": "prss"}"#, "act: action: there is no `prss`"),
             ("[]", "a message is an object, with its name under `do`"),
             ("{", "the line ends too early"),
