@@ -26,7 +26,7 @@ const lab = part("lab.json");
 const TITLE = "Robot motion: a course with the Motion Lab";
 const DESCRIPTION = "A chapter with the lab as its figures, lessons in the lab, and assignments. What is done is told to the platform.";
 const assignments = join(root, "book/assignments");
-const all = items(part("book.json"), lab, { assignments, worlds: join(root, "worlds") });
+const all = items(part("book.json"), lab, assignments);
 
 // a platform keeps 4,096 characters of what was done (SCORM 1.2, cmi.suspend_data)
 const longest = all.map(({ id }) => id).join(" ").length;

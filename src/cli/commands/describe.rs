@@ -1,20 +1,30 @@
-//! `describe`: the widgets' words, formulas and colours, for pages about the lab.
+//! `describe`: the widgets' words, formulas, colours and assignments, for pages about the lab.
+
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::{Map, Value, json};
 
+use super::grade::read_assignment;
 use crate::cli::{Data, Failure, Outcome};
 use motion_lab::configuration::RobotKind;
 use motion_lab::manifest::{ChapterFormula, Formula, Lesson, Widget};
 use motion_lab::picture::{Rgb, Role, Theme};
+use motion_lab::recording::Assignment;
+use motion_lab::run::{Event, Quantized, RobotInput, Script, seconds};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
-/// MathML, and the colours of the roles on light and on dark paper.
+/// MathML, the colours of the roles on light and on dark paper, and what assignments ask for.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
-  motion-lab describe > words.json")]
-pub struct Describe {}
+  motion-lab describe > words.json
+  motion-lab describe book/assignments/back_in.ron > words.json")]
+pub struct Describe {
+    /// Assignments, as `grade` reads them, to tell what they ask for.
+    #[arg(value_name = "ASSIGNMENT")]
+    assignments: Vec<PathBuf>,
+}
 
 impl Describe {
     /// Runs the command.
@@ -51,9 +61,38 @@ impl Describe {
             "formulas": formulas,
             "chapter": told.collect::<Vec<Value>>(),
             "colours": { "light": colours(Theme::Light), "dark": colours(Theme::Dark) },
+            "assignments": self.assignments.iter().map(|path| assignment_json(path)).collect::<Result<Vec<_>, _>>()?,
         });
         data.data_line(serde_json::to_string_pretty(&all).map_err(Failure::internal)?)?;
         Ok(Outcome::Done)
+    }
+}
+
+/// What an assignment asks for, with the file's name for its `id`, and the script by which its robot stands from the
+/// first tick on, as it does where it is graded.
+fn assignment_json(path: &Path) -> Result<Value, Failure> {
+    let (world, assignment) = read_assignment(path)?;
+    let resident = &assignment.world().robots[assignment.robot()];
+    let (goal, limits) = (assignment.goal(), assignment.limits());
+    let lengths = assignment.about().map_or(goal.at.len(), |about| about.lengths);
+    let script = Script::new(vec![Event { tick: 1, robot: resident.name.clone(), input: rest(&assignment) }], vec![]);
+    Ok(json!({
+        "id": path.file_stem().unwrap_or_default().to_string_lossy(),
+        "world": world, "robot": resident.name,
+        "at": goal.at, "within": goal.within, "is_angle": (0..goal.at.len()).map(|i| i >= lengths).collect::<Vec<_>>(),
+        "hold": assignment.hold(), "ticks": limits.ticks, "seconds": seconds(limits.ticks), "contacts": limits.contacts,
+        "script": script.to_line(),
+    }))
+}
+
+/// The input by which the robot of an assignment stands where it is.
+fn rest(assignment: &Assignment) -> RobotInput {
+    let start = &assignment.world().robots[assignment.robot()].start;
+    match assignment.about() {
+        Some(about) if about.lengths == 0 => {
+            RobotInput::MoveTo(start.iter().filter_map(|x| Quantized::try_new(*x)).collect())
+        }
+        _ => RobotInput::Drive(0, 0),
     }
 }
 

@@ -273,3 +273,32 @@ fn a_wrong_assignment_is_3_and_names_line_column_and_item() {
     fs::write(folder.path().join("exam.ron"), ASSIGNMENT).unwrap();
     assert!(graded(folder.path(), &["nobody.ron"]).failed(3).contains("nobody.ron: there is no such file"));
 }
+
+#[test]
+fn what_an_assignment_asks_for_is_told_to_pages_that_judge_by_it() {
+    let folder = folder(&[]);
+    let arm = ASSIGNMENT.replace("\"lot\"", "\"workbench\"").replace("\"Hitch\"", "\"Reach\"");
+    let arm = arm.replace("[6.5, 2.5, 0]", "[\"90deg\", 0.5]").replace("[7.5, 2.5, 0]", "[\"180deg\", 0]");
+    let arm =
+        arm.replace("within: [0.1, 0.1, 0.1]", "within: [0.1, \"1deg\"]").replace("contacts: 0, reversals: 1", "");
+    fs::write(folder.path().join("arm.ron"), arm.replace("limits:", "stay: (hold: 7), limits:")).unwrap();
+    let told = json(&run_in(folder.path(), &["describe", "exam.ron", "arm.ron"]).done())["assignments"].take();
+    let turn = std::f64::consts::PI;
+    let expected = serde_json::json!([
+        {
+            "id": "exam", "world": "lot", "robot": "Hitch", "at": [7.5, 2.5, 0.0], "within": [0.1, 0.1, 0.1],
+            "is_angle": [false, false, true], "hold": 1, "ticks": 200, "seconds": 10.0, "contacts": 0,
+            "script": "Script(version:1,events:[(tick:1,robot:\"Hitch\",input:Drive(0,0)),])",
+        },
+        {
+            "id": "arm", "world": "workbench", "robot": "Reach", "at": [turn, 0.0], "within": [0.1, turn / 180.0],
+            "is_angle": [true, true], "hold": 7, "ticks": 200, "seconds": 10.0, "contacts": null,
+            // in units of 2^-20 rad
+            "script": "Script(version:1,events:[(tick:1,robot:\"Reach\",input:MoveTo([1647099,524288])),])",
+        },
+    ]);
+    assert_eq!(told, expected);
+    assert_eq!(json(&run_in(folder.path(), &["describe"]).done())["assignments"], serde_json::json!([]));
+    let refused = run_in(folder.path(), &["describe", "exam.ron", "none.ron"]).failed(3);
+    assert!(refused.contains("none.ron"), "{refused}");
+}

@@ -78,7 +78,7 @@ test("times have the forms of the run-time environment", () => {
 });
 
 test("a run is judged by where it is, how long, and what it touched", () => {
-  const car = { robot: "Hitch", at: [6.75, 8.875, -Math.PI / 2], within: [0.2, 0.2, 0.1], hold: 20, ticks: 2400, contacts: 0 };
+  const car = { robot: "Hitch", at: [6.75, 8.875, -Math.PI / 2], within: [0.2, 0.2, 0.1], is_angle: [false, false, true], hold: 20, ticks: 2400, seconds: 120, contacts: 0 };
   const at = (tick, coordinates, contacts = 0) => ({ tick, robots: [{ name: "Hitch", coordinates, contacts }] });
   const parked = [6.7, 8.9, (3 * Math.PI) / 2];
   const says = judge(car);

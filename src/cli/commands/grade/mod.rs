@@ -100,7 +100,7 @@ impl GradeArgs {
     /// Runs the command.
     pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         let form = self.form();
-        let assignment = read_assignment(&self.assignment)?;
+        let (_, assignment) = read_assignment(&self.assignment)?;
         let Submissions { graded: files, left_out } = submissions::find(&self.submissions, &self.assignment)?;
         for (file, reason) in &left_out {
             say(format!("{}: left out: {reason}", in_one_line(&file.display().to_string())));
@@ -177,7 +177,8 @@ fn reason_of(failure: &Failure, name: &str) -> String {
     line.strip_prefix(name).and_then(|rest| rest.strip_prefix(": ")).unwrap_or(line).to_owned()
 }
 
-fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
+/// Reads an assignment, with the name of its world as it is written there.
+pub fn read_assignment(path: &Path) -> Result<(String, Assignment), Failure> {
     let refused = |error: AssignmentError| {
         let next = match &*error.problem {
             AssignmentProblem::Configuration(RunError::Spawn(SpawnError::UnknownKind { .. })) => unknown_kind(),
@@ -189,7 +190,8 @@ fn read_assignment(path: &Path) -> Result<Assignment, Failure> {
     let world =
         find_world_beside(path, file.world_name()).map_err(|failure| failure.named_at(&file.place_of("world")))?;
     file.turns(&world).into_iter().for_each(note);
-    file.in_world(world).map_err(refused)
+    let name = file.world_name().to_owned();
+    Ok((name, file.in_world(world).map_err(refused)?))
 }
 
 /// What a file holds.
