@@ -14,9 +14,10 @@ use motion_lab_sim::run::{Event, RobotInput, Script};
 fn try_plan(text: &str) -> Result<Study, StudyError> {
     let file = StudyFile::parse("study.ron", text)?;
     let worlds = file.world_names().into_iter().filter_map(|name| Some((name.to_owned(), World::built_in(name)?)));
-    let drive = Event { tick: 1, robot: "Hitch".into(), input: RobotInput::Drive(128, 0) };
-    let script = Script::new(vec![drive], vec![]);
-    let scripts = file.script_names().into_iter().map(|name| (name.to_owned(), script.clone()));
+    // a.ron goes straight ahead, b.ron steers by a unit, ..
+    let drive = |name: &str| RobotInput::Drive(128, i16::from(name.as_bytes()[0]) - i16::from(b'a'));
+    let script = |name| Script::new(vec![Event { tick: 1, robot: "Hitch".into(), input: drive(name) }], vec![]);
+    let scripts = file.script_names().into_iter().map(|name| (name.to_owned(), script(name)));
     file.with(&worlds.collect(), &scripts.collect())
 }
 

@@ -4,6 +4,7 @@ use super::super::*;
 use super::{study, try_plan};
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::{BeamModel, ResidentSensor, World};
+use motion_lab_sim::run::RobotInput;
 
 /// The starts x and theta of the car in each row.
 fn starts(study: &Study) -> Vec<(f64, f64)> {
@@ -110,6 +111,12 @@ fn every_parameter_reaches_the_run() {
     assert_eq!((a.seed.0, b.seed.0), (7, 8));
     let (a, b) = vary("ticks", "Values([7, 9])");
     assert_eq!((a.config.ticks, b.config.ticks), (7, 9));
+    let (a, b) = vary("script", "Names([\"a.ron\", \"b.ron\"])");
+    let steered = [a, b].map(|run| match run.inputs {
+        RunInputs::Script(script) => script.events[0].input.clone(),
+        RunInputs::Planner(_) => panic!("a script"),
+    });
+    assert_eq!(steered, [RobotInput::Drive(128, 0), RobotInput::Drive(128, 1)]);
     let (a, b) = vary("sensor.rays", "Values([7, 9])");
     assert_eq!((a.config.sensor.unwrap().n_rays, b.config.sensor.unwrap().n_rays), (7, 9));
     let (a, b) = vary("Rusty.start", "Starts([[3, 5.5, 0], [2, 5, 1]])");

@@ -159,9 +159,11 @@ pub fn lines_through(slice: &Slice, trace: &[AnyConfiguration]) -> Option<Vec<Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::collision::Collision;
     use crate::configuration::T2;
     use crate::cspace::tests::arm;
     use crate::picture::{Fit, Primitive, ScreenRect, resolve};
+    use crate::robots::Robot;
 
     #[test]
     fn on_a_small_paper_the_figures_at_the_axes_stand_within_its_frame() {
@@ -175,6 +177,22 @@ mod tests {
             let [Primitive::Text { at, .. }] = &resolve(figure, &fit)[..] else { panic!("words") };
             assert!(at[0] - 23.0 >= 2.0, "{} ends at {}", figure.name, at[0]);
         }
+    }
+
+    #[test]
+    fn ticks_of_a_torus_lead_from_its_lower_and_left_edge_outward() {
+        let (checker, q) = arm(false);
+        let picture = cspace_picture(&CellMap::new(Slice::through(&checker, &q).unwrap(), 1), &Overlay::default());
+        let ticks = |way: &str| -> Vec<[[f64; 2]; 2]> {
+            let ends = |item: &Item| {
+                let Drawing::Polyline(ends) = &item.drawing else { panic!("{} is no line", item.id) };
+                [[ends[0].x, ends[0].y], [ends[1].x, ends[1].y]]
+            };
+            picture.items.iter().filter(|item| item.id.starts_with(&format!("tick/{way}/"))).map(ends).collect()
+        };
+        let angles = [-PI, -FRAC_PI_2, 0.0, FRAC_PI_2, PI];
+        assert_eq!(ticks("across"), angles.map(|k| [[k, -PI], [k, -PI - 0.06]]));
+        assert_eq!(ticks("up"), angles.map(|k| [[-PI, k], [-PI - 0.06, k]]));
     }
 
     #[test]
@@ -203,6 +221,16 @@ mod tests {
         let progress = map.progress();
         for (drawn, counted) in areas.iter().zip([progress.free, progress.blocked, progress.unknown]) {
             assert!((drawn - counted).abs() < 1e-9, "{areas:?} {progress:?}");
+        }
+        // what is proven free or blocked is so in the middle of each piece
+        for (id, is_blocked) in [("cells/free", false), ("cells/blocked", true)] {
+            let Drawing::Region { pieces, .. } = &find(id).drawing else { panic!("a region") };
+            assert!(pieces.len() > 3);
+            for piece in pieces {
+                let middle = at(0.5 * (piece[0].x + piece[2].x), 0.5 * (piece[0].y + piece[2].y));
+                let footprint = checker.robot().footprint(&middle);
+                assert_eq!(checker.scene().intersects(&footprint), is_blocked, "{id} at {middle}");
+            }
         }
         let Drawing::Region { outline, .. } = &find("line").drawing else { panic!("lines") };
         assert_eq!(outline.len(), 2, "the short way, over the edge");

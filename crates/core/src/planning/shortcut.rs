@@ -180,3 +180,27 @@ impl<'a, R: Robot<Configuration: Chart>> PathDraft<'a, R> {
         false
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::Scene;
+    use crate::configuration::R2;
+    use crate::geometry::{Aabb, Point2};
+    use crate::robots::RustyDisc;
+
+    #[test]
+    fn a_place_on_a_path_is_as_far_along_it_as_its_share() {
+        let bounds = Aabb { min: Point2::new(-9.0, -9.0), max: Point2::new(9.0, 9.0) };
+        let checker = Checker::new(Scene::empty(bounds), RustyDisc::default());
+        // 2 m, 1 m and 3 m
+        let corners = [R2::new(0.0, 0.0), R2::new(2.0, 0.0), R2::new(2.0, 1.0), R2::new(-1.0, 1.0)];
+        let path = LinePath::through(&checker, &corners).unwrap();
+        let metric = Metric::unit(&corners[0]);
+        let draft = PathDraft::of(&path, &checker, &metric);
+        for (share, leg, s) in [(0.0, 0, 0.0), (0.25, 0, 0.75), (2.5 / 6.0, 1, 0.5), (0.75, 2, 0.5), (1.0, 2, 1.0)] {
+            let place = draft.place(share);
+            assert!(place.leg == leg && (place.s - s).abs() < 1e-12, "{share}: {place:?}");
+        }
+    }
+}

@@ -65,6 +65,18 @@ fn a_trap_is_a_local_minimum_that_can_be_shown() {
     assert!(disc_clearance(beside.checker().scene(), 0.1, &path.corners()) > 0.0 && path.legs().len() > 3);
 }
 
+/// The room is 4 m wide: a step is a fifth of half of it in each of two coordinates, and an iteration goes a quarter.
+#[test]
+fn an_iteration_of_the_potential_field_goes_a_quarter_of_a_step() {
+    let problem = Problem::try_new(room(&[]), R2::new(-1.5, 0.0), R2::new(1.5, 0.0), Seed(1)).unwrap();
+    let path = solve(&mut PotentialField::new(problem), &Bounds::of_iterations(3000)).unwrap();
+    let lengths: Vec<f64> = path.corners().windows(2).map(|ends| (ends[1].0 - ends[0].0).norm()).collect();
+    let quarter = 0.25 * 0.2 * 8.0_f64.sqrt();
+    let (last, before) = lengths.split_last().unwrap();
+    assert!(*last <= 4.0 * quarter + 1e-12 && before.len() > 10, "{lengths:?}");
+    assert!(before.iter().all(|length| (length - quarter).abs() < 1e-12), "{lengths:?}");
+}
+
 #[test]
 fn planners_of_discs_refuse_an_arm() {
     let problem = round_the_post(1);

@@ -199,3 +199,22 @@ fn growth_shows_every_node_edge_and_rejection() {
         assert!(rejections > 0 && growth.effort().iterations > 0, "{}: {rejections}", planner.name());
     }
 }
+
+/// Kuffner and LaValle's Connect: a tree comes toward a node of the other a step at a time, as far as the way is free.
+/// Ours begins with the start's tree and the goal; a wall on x = 0 stops the disc of 10 cm at x = -0.1.
+#[test]
+fn a_tree_of_rrt_connect_comes_nearer_step_by_step_as_far_as_it_can() {
+    let problem =
+        Problem::try_new(room(&[[0.0, -2.5, 0.0, 1.5]]), R2::new(-1.7, -1.0), R2::new(1.6, -1.0), Seed(3)).unwrap();
+    let mut planner = RrtConnect::new(problem);
+    // a fifth of half the room in each of two coordinates
+    let step = 0.2 * 8.0_f64.sqrt();
+    for count in 1..=3 {
+        planner.step();
+        let nodes = planner.growth().nodes();
+        assert_eq!(nodes.len(), 2 + usize::min(count, 2), "a third step would end at the wall");
+        let last = nodes.last().unwrap().at.0;
+        let expected = Point2::new(-1.7 + step * count.min(2) as f64, -1.0);
+        assert!((last - expected).norm() < 1e-12, "{last}, not {expected}");
+    }
+}

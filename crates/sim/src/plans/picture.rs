@@ -136,3 +136,29 @@ fn refused(lines: Vec<Vec<Point2>>) -> Item {
     Item::new("rejected/way", "a motion that is not free", Role::Goal, drawing)
         .stroked(Line::solid(1.5).dashed(Dash::Dashed))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_lab_core::collision::{Checker, Scene};
+    use motion_lab_core::robots::AnyRobot;
+
+    #[test]
+    fn a_path_is_over_the_cells_where_there_is_one() {
+        let at = |q: [f64; 2]| AnyRobot::of_kind("reach", &q).unwrap();
+        let (arm, start) = at([0.0, 0.0]);
+        let goal = at([1.0, 0.5]).1;
+        let slice = Slice::through(&Checker::new(Scene::workbench(), arm), &start).unwrap();
+        for way in [vec![], vec![start, goal]] {
+            let (path, corners) = (way.clone(), way.clone());
+            let drawn = Drawn { ends: [start, goal], edges: vec![], path, corners, rejected: None, sensed: None };
+            let items = space_items(&slice, &drawn);
+            let outlines = items.iter().filter(|item| item.id == "path").map(|item| match &item.drawing {
+                Drawing::Region { outline, .. } => outline.clone(),
+                other => panic!("{other:?}"),
+            });
+            let line = vec![vec![Point2::new(0.0, 0.0), Point2::new(1.0, 0.5)]];
+            assert_eq!(outlines.collect::<Vec<_>>(), if way.is_empty() { vec![] } else { vec![line] });
+        }
+    }
+}

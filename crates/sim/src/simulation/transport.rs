@@ -102,6 +102,9 @@ mod tests {
             let next = re_rolled(Seed(seed));
             assert!(next != Seed(seed) && next.0 <= 999_999);
             assert_eq!(next, re_rolled(Seed(seed)));
+            // what is drawn is its rank among the numbers of six digits but the present one
+            let drawn = Stream::new(Seed(seed), "re-roll").below(999_999);
+            assert_eq!(next.0 - u64::from(seed < next.0), drawn, "after {seed}");
         }
     }
 }

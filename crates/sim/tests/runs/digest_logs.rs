@@ -196,6 +196,21 @@ fn a_record_of_less_than_a_minute_is_the_last() {
     assert_eq!(found, (40, stopped.len() as u64, DamageKind::Changed));
 }
 
+/// The run has 1250 ticks, of which 1200 are in its first record.
+#[test]
+fn a_record_beyond_the_run_s_end_or_of_another_number_of_digests_is_changed() {
+    let begun = write(&recorded(1250), Some(1200));
+    for (tick, digests) in [(1260, 3), (2400, 60), (1250, 2), (1250, 4), (1200, 0), (1180, 1)] {
+        let words: Vec<u64> = std::iter::once(tick).chain((0..digests).map(|k| 7 + k)).collect();
+        let mut longer = [begun.clone(), record(0x81, &words)].concat();
+        let hash = xxhash_rust::xxh3::xxh3_128(&longer);
+        longer.extend(record(0x80, &[tick, longer.len() as u64, hash as u64, (hash >> 64) as u64]));
+        let Err(LogError::Damaged(damaged)) = Log::read_mcap(&longer) else { panic!("accepted: {tick}") };
+        let found = (damaged.sealed_ticks, damaged.first_unsealed_offset, damaged.kind);
+        assert_eq!(found, (1200, begun.len() as u64, DamageKind::Changed), "{digests} digests up to {tick}");
+    }
+}
+
 #[test]
 fn a_run_changed_at_one_tick_is_refused_in_its_second() {
     let log = recorded(70);

@@ -10,7 +10,8 @@ use motion_lab_core::worlds::{Door, World};
 use motion_lab_sim::capture::{RunPlot, plot};
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{
-    Event, Log, Quantity, RobotInput, RobotStats, RunStats, Script, Series, SeriesGatherer, WorldChange, WorldEvent,
+    Event, Log, Quantity, RobotInput, RobotStats, RunStats, Script, Series, SeriesGatherer, StatsColumn, WorldChange,
+    WorldEvent,
 };
 use motion_lab_sim::tour::TourConfig;
 
@@ -275,4 +276,31 @@ fn a_plot_shows_a_drive_back_and_forth_with_its_signs() {
             + 0.03 * 100.0 / 128.0 * f64::from((tick - 50).clamp(0, 20));
         assert!((metres - rolled).abs() < step + 1e-6, "{time} s: {metres}, not {rolled}");
     }
+}
+
+#[test]
+fn lines_left_out_of_a_plot_are_the_last_ones() {
+    let to = RobotInput::MoveTo(quantized(&[0.5, 0.25]));
+    let log = log_of(square("reach", &[0.0; 2]), 10, script(vec![event(1, "it", to)]));
+    let (config, kinds) = (&log.recipe.config, Kinds::default());
+    let both = series(&log, Quantity::Joints);
+    let ends: Vec<f64> = both.iter().map(|line| line.points.last().unwrap().1).collect();
+    assert_eq!(ends, [0.5, 0.25], "a line for each joint");
+    for (most, left) in [(0, 0), (1, 1), (2, 2), (3, 2)] {
+        let mut gatherer = SeriesGatherer::new(Quantity::Joints, config, &log.recipe.script, &kinds, |_| true);
+        gatherer.truncate(most);
+        assert_eq!(gatherer.lines(), left);
+        std::iter::once(log.initial().unwrap()).chain(log.frames()).for_each(|frame| gatherer.see(frame));
+        assert_eq!(gatherer.series(), both[..left]);
+    }
+}
+
+#[test]
+fn a_column_is_the_one_of_its_name() {
+    for (i, column) in StatsColumn::ALL.iter().enumerate() {
+        let same = StatsColumn::ALL.iter().map(|other| other == column);
+        assert_eq!(same.collect::<Vec<_>>(), (0..7).map(|k| k == i).collect::<Vec<_>>(), "{}", column.name);
+        assert_eq!(StatsColumn::named(column.name), Some(*column));
+    }
+    assert_eq!(StatsColumn::named("contact"), None);
 }

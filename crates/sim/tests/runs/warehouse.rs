@@ -5,10 +5,12 @@ use motion_lab_core::configuration::{ArmSizes, Sizes};
 use motion_lab_core::geometry::{Aabb, Placed, Vertices};
 use motion_lab_core::num;
 use motion_lab_core::prelude::*;
+use motion_lab_core::robots::HITCH;
 use motion_lab_core::worlds::{Resident, Route, Warehouse, World};
 use motion_lab_sim::recording::{Recorder, Run, verify};
 use motion_lab_sim::run::{Frame, Log};
-use motion_lab_sim::tour::TourConfig;
+use motion_lab_sim::simulation::{Extra, SimulatedRobot};
+use motion_lab_sim::tour::{RouteTours, TourConfig, Touring};
 
 use oracle::fixtures::count_from_env;
 use oracle::plain;
@@ -214,4 +216,30 @@ fn a_run_on_a_route_that_cannot_be_followed_does_not_start() {
     assert!(lost.ends_with("robot \"it\" in world \"Warehouse of 10, seed 5\": there is no route \"round\""), "{lost}");
     let sharp = start("rusty", &rover, Route { radius: 25.0, ..round }).unwrap();
     assert!(sharp.contains("route \"round\" in world \"Warehouse of 10, seed 5\": from points[0] on"), "{sharp}");
+}
+
+/// An error of the law falls as `(1 + k s) exp(-k s)` over s metres, since it is critically damped. A car's k is one
+/// over its wheelbase, so that 2 / e of the error are left after a wheelbase, and 4 / e^3 after three.
+#[test]
+fn a_car_beside_its_route_comes_back_to_it_as_its_wheelbase_says() {
+    let corners = [(0.0, 0.0), (60.0, 0.0), (60.0, 12.0), (0.0, 12.0)].map(|(x, y)| Point2::new(x, y));
+    let route = Route { name: "round".into(), points: corners.to_vec(), radius: 5.0, speed: 0.5 };
+    let world = World { routes: vec![route], ..World::empty("w", Aabb { min: corners[0], max: corners[2] }) };
+    let tour = RouteTours::of_world(&world, Seed(3)).unwrap().get("round").unwrap().starting_at(Point2::new(10.0, 0.0));
+    let touring = Touring::Route(tour);
+    let mut q = HitchCfg { body: Pose2::new(10.0, 0.01, 0.0), trailer: None };
+    let (mut tick, mut left) = (0, vec![]);
+    for wheelbases in [1.0, 3.0] {
+        while q.body.x < 10.0 + wheelbases * HITCH.wheelbase {
+            tick += 1;
+            let control = HITCH.touring(&touring, tick, 0.05, &q, &mut Extra::default());
+            q = HITCH.step(&q, &control, 0.05).unwrap();
+        }
+        left.push(q.body.y / 0.01);
+    }
+    let expected = [2.0 * num::exp(-1.0), 4.0 * num::exp(-3.0)];
+    assert!(
+        left.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 0.02),
+        "{left:?} {expected:?}"
+    );
 }

@@ -7,10 +7,11 @@ use bevy::ecs::schedule::Schedules;
 use bevy::prelude::{Commands, EntityEvent, On, Query, Res, ResMut, Resource, World};
 use bevy::time::TimeUpdateStrategy;
 use motion_lab_core::prelude::{RUSTY, Seed};
+use motion_lab_core::robots::Hitch;
 use motion_lab_sim::recording::{Recorder, Run};
 use motion_lab_sim::run::{Log, RobotInput, Script};
 use motion_lab_sim::simulation::{
-    ContactBegan, ContactEnded, LatestFrame, Playback, RobotId, Roster, RunCommand, SimulationSchedule, Transport,
+    ContactBegan, ContactEnded, Cut, LatestFrame, Playback, RobotId, Roster, RunCommand, SimulationSchedule, Transport,
     TransportCommand, headless_app, start_run, step,
 };
 use motion_lab_sim::tour::TourConfig;
@@ -176,4 +177,21 @@ fn an_observer_may_begin_another_run() {
     }
     assert_eq!(app.world().resource::<Diary>().0, [(60, 0, false)], "the other robot of that tick is gone");
     assert_eq!(app.world().resource::<Transport>().tick(), 0);
+}
+
+/// A car's front is 3.2 m ahead of its rear axle and it goes 0.075 m in a tick: 0.2 m before a wall the third tick is
+/// cut after two thirds of its way, and no way is left in those after it.
+#[test]
+fn a_cut_says_how_much_of_a_tick_s_motion_was_free() {
+    let world = arena(9.0, &[("car", "hitch", &[9.0 - 0.2 - 3.2, 0.0, 0.0])]);
+    let mut app = headless_app();
+    let drive = script(vec![event(1, "car", RobotInput::Drive(128, 0))]);
+    start_run(app.world_mut(), TourConfig { worlds: vec![world], ticks: 20, sensor: None }, (Seed(1), drive)).unwrap();
+    for (expected, is_contact) in [(1.0, false), (1.0, false), (2.0 / 3.0, true), (0.0, true), (0.0, true)] {
+        step(app.world_mut());
+        let mut cuts = app.world_mut().query::<&Cut<Hitch>>();
+        let cut = cuts.single(app.world()).unwrap();
+        assert_eq!(cut.contact(), is_contact, "{}", cut.until());
+        assert!((cut.until() - expected).abs() < 1e-3, "{}, not {expected}", cut.until());
+    }
 }

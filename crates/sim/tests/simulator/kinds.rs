@@ -134,6 +134,7 @@ fn a_type_without_the_hook_takes_no_sizes() {
         app.add_plugins(RobotPlugin::new("puck", Puck { radius: 0.2 }));
         app.add_plugins(RobotPlugin::new("x-big", RUSTY));
     };
+    assert_eq!(bevy::app::Plugin::name(&RobotPlugin::new("x-big", RUSTY)), "x-big", "Bevy tells kinds apart");
     let sizes = || Sizes::Disc(DiscSizes { radius: 0.4, track: 0.3, wheel_radius: 0.05 });
     let mut config = config(1);
     config.worlds[0].robots[0].sizes = Some(sizes());

@@ -1,7 +1,8 @@
 //! Robots that become robots of another type or kind before tick 0.
 
+use motion_lab_core::configuration::{CarSizes, Sizes, TrailerSizes};
 use motion_lab_core::prelude::*;
-use motion_lab_core::robots::{HITCH, Hitch, RUSTY, Rusty};
+use motion_lab_core::robots::{CarBody, HITCH, Hitch, RUSTY, Rusty};
 use motion_lab_core::worlds::Resident;
 use motion_lab_sim::run::{Event, RobotInput};
 use motion_lab_sim::simulation::{Configuration, DriveMode, PendingInput, RobotModel, RunConfig, settle};
@@ -44,4 +45,29 @@ fn a_kind_registered_twice_with_one_type_is_told_by_its_name() {
     assert!(refused(app.world_mut()).is_empty());
     let resident = app.world().resource::<RunConfig>().config().worlds[0].robots[0].clone();
     assert_eq!((resident.kind.as_str(), resident.sizes), ("x-big", None));
+}
+
+/// The resident has no sizes before: those of its new model are its own.
+#[test]
+fn a_car_of_another_make_has_its_sizes_in_the_configuration() {
+    let mut app = app();
+    let c = robot(app.world(), "C");
+    let make = Hitch { wheelbase: 2.0, body: CarBody { width: 1.5, ..HITCH.body }, jackknife: Some(1.0), ..HITCH };
+    app.world_mut().entity_mut(c).insert(RobotModel(make));
+    let trailer = TrailerSizes {
+        hitch_len: HITCH.with_trailer().hitch_len.unwrap(),
+        width: HITCH.trailer_body.width,
+        front_overhang: HITCH.trailer_body.front_overhang,
+        rear_overhang: HITCH.trailer_body.rear_overhang,
+        jackknife: Some(1.0),
+    };
+    let CarBody { length, rear_overhang, .. } = HITCH.body;
+    let car = CarSizes { wheelbase: 2.0, length, width: 1.5, rear_overhang, max_steer: HITCH.max_steer, trailer };
+    let world = app.world_mut();
+    settle(world);
+    assert_eq!(refused(world), [""; 0]);
+    assert_eq!(world.resource::<RunConfig>().config().worlds[0].robots[2].sizes, Some(Sizes::Car(car)));
+    assert_agrees(world);
+    steps(world, 10);
+    assert_recorded(world);
 }

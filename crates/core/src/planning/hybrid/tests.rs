@@ -141,3 +141,36 @@ fn moves_over_a_length_are_right_to_half_a_unit() {
     let by_hand = HITCH.step(&q, &crate::robots::CarCmd { v: -0.75, phi: 0.15 }, 0.15).unwrap();
     assert_eq!(m.drive(&HITCH, &q).unwrap().at(1.0), by_hand);
 }
+
+/// The poses in which a problem is the same, seen by somebody who stands elsewhere: none of them along an axis.
+#[test]
+fn a_shot_is_the_same_wherever_the_goal_lies_and_whichever_way_it_points() {
+    let car = HITCH.with_trailer();
+    let bounds = crate::geometry::Aabb { min: Point2::new(-90.0, -90.0), max: Point2::new(90.0, 90.0) };
+    // seen from the goal: before it, beside its line, turned and folded, and a metre too far away for as many moves
+    for [x, y, theta, psi] in
+        [[4.0, 0.1, 0.0, 0.0], [8.0, 0.4, 0.0, 0.0], [12.0, 0.5, 0.1, 0.05], [16.0, 0.0, 0.0, 0.0]]
+    {
+        let seen_from = |goal: Pose2| {
+            let turned = |angle: f64| Some(wrap(angle + goal.theta));
+            let q = HitchCfg { body: goal.compose(&Pose2::new(x, y, theta)), trailer: turned(psi) };
+            let goal = HitchCfg { body: goal, trailer: turned(0.0) };
+            let settings = HybridSettings::default();
+            let problem = Problem::try_new(Checker::new(Scene::empty(bounds), car), q, goal, Seed(1)).unwrap();
+            let problem = problem.try_with_region(std::sync::Arc::new(settings.around(goal))).unwrap();
+            shots::shots(&problem, &q, &settings).into_iter().map(|shot| shot.moves).collect::<Vec<_>>()
+        };
+        let expected = seen_from(Pose2::IDENTITY);
+        let backs = |moves: &Vec<CarMove>| moves.iter().all(|m| m.speed < 0);
+        assert_eq!(expected.iter().any(|moves| backs(moves) && moves.len() > 5), x < 13.0, "{expected:?}");
+        for goal in [[30.0, -20.0, 0.7], [-17.0, 5.0, 2.5], [8.0, 44.0, -2.0], [-3.0, -3.0, FRAC_PI_2]] {
+            let found = seen_from(Pose2::new(goal[0], goal[1], goal[2]));
+            assert_eq!(found.len(), expected.len(), "{x} {y} from {goal:?}");
+            for (a, b) in found.iter().flatten().zip(expected.iter().flatten()) {
+                // a unit of the steering may be rounded the other way
+                let is_near = a.steering.abs_diff(b.steering) <= 1 && a.speed.abs_diff(b.speed) <= 1;
+                assert!(is_near && a.ticks == b.ticks, "{a:?} {b:?} at {x} {y} from {goal:?}");
+            }
+        }
+    }
+}

@@ -275,3 +275,55 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
         NoPath::LocalMinimum { node: self.node() }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::{Checker, Scene};
+    use crate::configuration::R2;
+    use crate::geometry::{Aabb, Segment, Shape};
+    use crate::random::Seed;
+    use crate::robots::RustyDisc;
+
+    /// A disc of 10 cm at a place in a room of 4 by 4 metres with a wall on x = 0.
+    fn walker(x: f64, y: f64) -> Walker<RustyDisc> {
+        let bounds = Aabb { min: Point2::new(-2.0, -2.0), max: Point2::new(2.0, 2.0) };
+        let Segment { a, b } = Segment::new(Point2::new(0.0, -2.0), Point2::new(0.0, 2.0));
+        let scene = Scene::empty(bounds).with_obstacle("the wall", Shape::Segment { a, b });
+        let checker = Checker::new(scene, RustyDisc::try_new(0.1).unwrap());
+        let problem = Problem::try_new(checker, R2::new(x, y), R2::new(1.0, 1.0), Seed(1)).unwrap();
+        Walker::try_new(&problem).unwrap()
+    }
+
+    /// A side of the bounds stops the disc's centre, a wall its edge.
+    #[test]
+    fn the_nearest_boundary_is_a_wall_or_a_side_whichever_is_nearer() {
+        for ((x, y), distance, toward) in [
+            ((-0.5, 0.0), 0.4, [1.0, 0.0]),
+            ((0.5, 0.0), 0.4, [-1.0, 0.0]),
+            ((-1.75, 0.5), 0.25, [-1.0, 0.0]),
+            ((-1.0, 1.5), 0.5, [0.0, 1.0]),
+            ((-1.0, -1.25), 0.75, [0.0, -1.0]),
+        ] {
+            let (found, way) = walker(x, y).nearest();
+            assert!((found - distance).abs() < 1e-12, "{found} at {x}, {y}");
+            assert!((way - Vector2::new(toward[0], toward[1])).norm() < 1e-12, "{way} at {x}, {y}");
+        }
+    }
+
+    /// Brent's way: the next round may be twice as long, and so every cycle is found in a few times its length.
+    #[test]
+    fn a_round_that_is_not_closed_begins_again_and_may_be_twice_as_long() {
+        let mut walker = walker(-1.0, 0.0);
+        walker.longest_round = 4;
+        let (mut from, mut began) = (0, vec![]);
+        for step in 1..=80 {
+            assert!(walker.go(R2::new(-1.0, 0.01 * f64::from(step))));
+            let next = walker.beginning(from);
+            if next != from {
+                (from, began) = (next, [began, vec![next]].concat());
+            }
+        }
+        assert_eq!(began, [5, 5 + 9, 14 + 17, 31 + 33], "more than 4, 8, 16 and 32 steps");
+    }
+}

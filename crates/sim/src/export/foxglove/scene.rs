@@ -178,3 +178,18 @@ pub fn colour(role: Role, opacity: f64) -> Color {
     let [r, g, b] = Theme::Dark.palette().colour(role).0.map(|c| f64::from(c) / 255.0);
     Color { r, g, b, a: opacity }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Foxglove's schema of a scene's entity: a lifetime of 0 means that it stays until it is replaced or deleted.
+    #[test]
+    fn what_is_drawn_stays_until_it_is_replaced() {
+        let entities = changed_worlds(0, &[], &[Arc::new(World::lot())]).unwrap().entities;
+        assert!(entities.len() > 5, "walls, parked cars and marks");
+        for entity in &entities {
+            assert_eq!(entity.lifetime, Some(Duration { seconds: 0, nanos: 0 }), "{}", entity.id);
+        }
+    }
+}

@@ -91,3 +91,14 @@ fn a_tree_alone_and_more_legs_than_are_judged_are_not_judged() {
     assert_eq!(judged(&many(MAX_JUDGED + 1), [[2.0, 0.0]; 2]), None);
     assert!(judged(&many(MAX_JUDGED), [[2.0, 0.0]; 2]).unwrap().proof.is_ok());
 }
+
+/// What is asked of a leg is asked of the motion that it is: a rover's line has the short proof of a disc's.
+#[test]
+fn a_leg_answers_as_its_motion_does() {
+    let at = |x: f64, y: f64| AnyRobot::of_kind("rusty", &[x, y, 0.5]).unwrap();
+    let ((rover, a), (_, b)) = (at(1.0, 2.0), at(1.5, 2.25));
+    let line = rover.edge(&a, &b).unwrap();
+    let disc = line.disc_line().unwrap();
+    assert_eq!((disc.0.a, disc.0.b), (Point2::new(1.0, 2.0), Point2::new(1.5, 2.25)));
+    assert_eq!(FileMotion::Line(Box::new(line)).disc_line(), Some(disc));
+}

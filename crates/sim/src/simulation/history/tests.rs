@@ -200,3 +200,22 @@ fn marks_are_thinned_by_halves_and_the_last_one_stays() {
         assert_eq!(history.marks.len(), count.div_ceil(2), "few enough");
     }
 }
+
+#[test]
+fn a_series_is_what_was_sampled_evenly_over_the_run() {
+    let mut app = app(Script::empty());
+    (0..300).for_each(|_| step(app.world_mut()));
+    let history = app.world().resource::<History>();
+    let sampled = |tick: u64| (tick, history.at(tick, 0).unwrap().travelled);
+    assert!(sampled(300).1 > sampled(4).1, "or nothing is told apart");
+    // a fourth of the 301 samples are no more than 100, a third would be 101
+    let fourth: Vec<_> = (0..=300).step_by(4).map(sampled).collect();
+    assert_eq!(history.series(0, 100, |t| Some(t.travelled)), fourth);
+    let whole: Vec<_> = (0..=300).map(sampled).collect();
+    assert_eq!(history.series(0, 301, |t| Some(t.travelled)), whole);
+    // a sample without the value is left out, and a robot that is not there has none
+    let late: Vec<_> = whole.iter().copied().filter(|(_, travelled)| *travelled > whole[150].1).collect();
+    let some = |t: &Trail| Some(t.travelled).filter(|travelled| *travelled > whole[150].1);
+    assert_eq!(history.series(0, 1000, some), late);
+    assert_eq!(history.series(99, 100, |t| Some(t.travelled)), []);
+}

@@ -76,3 +76,16 @@ impl Trail {
         size_of::<Trail>() + beyond
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Coordinates are a list that keeps four numbers, a car's with its trailer, in itself.
+    #[test]
+    fn a_trail_takes_more_for_coordinates_beyond_four_alone() {
+        let bytes = |count: usize| Trail { coordinates: (0..count).map(|_| 0.5).collect(), ..Trail::default() }.bytes();
+        let own = size_of::<Trail>();
+        assert_eq!([2, 4, 5, 9].map(bytes), [own, own, own + 5 * 8, own + 9 * 8]);
+    }
+}

@@ -107,6 +107,20 @@ fn a_car_drives_reeds_and_shepps_curve_to_within_a_tube() {
     }
 }
 
+/// A path says how fast it is to be driven: half as fast takes twice the ticks, and is the car's own half channel.
+#[test]
+fn an_arc_of_whole_ticks_is_played_at_its_own_speed() {
+    let start = HitchCfg { body: Pose2::new(6.5, 2.5, 0.0), trailer: None };
+    for (v, ticks, channel) in [(1.5, 10_u64, 128), (0.75, 20, 64), (-0.375, 40, -32)] {
+        let arc = HITCH.drive(&start, &CarCmd { v, phi: 0.0 }, ticks as f64 * 0.05).unwrap();
+        let path = CertifiedPath::try_new(&Checker::new(Scene::lot(), HITCH), vec![arc]).unwrap();
+        let played = Script::of_path(&path, &PlayStage::new(&World::lot(), "Hitch", Seed(1))).unwrap();
+        let inputs: Vec<_> = played.script.events.iter().map(|event| (event.tick, event.input.clone())).collect();
+        assert_eq!(inputs, [(1, RobotInput::Drive(channel, 0)), (ticks + 1, RobotInput::Drive(0, 0))], "{v} m/s");
+        assert_eq!((played.strayed, played.missed, played.ticks), (0.0, 0.0, ticks));
+    }
+}
+
 /// How far a point is from a chain of lines, metres.
 fn beside(p: Point2, corners: &[Point2]) -> f64 {
     corners.windows(2).fold(f64::INFINITY, |least, ends| {

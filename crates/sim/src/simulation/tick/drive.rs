@@ -124,6 +124,6 @@ pub(crate) fn plan<R: SimulatedRobot>(mut crowds: ResMut<WorldCrowds>, mut robot
 }
 
 /// How far a motion may take any point of a robot from where it is at the start, or a proof may think so, metres.
-fn reach(motion: &impl Motion, parts: usize) -> f64 {
+pub(super) fn reach(motion: &impl Motion, parts: usize) -> f64 {
     (0..parts).fold(0.0, |most, k| greater(motion.bound(k, 0.0, 1.0) + motion.sagitta(k, 0.0, 1.0), most))
 }
