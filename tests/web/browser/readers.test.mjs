@@ -307,16 +307,16 @@ lab("a paused lab takes at most a hundredth of a core", "/?tick=200", async (lab
         const context = document.getElementById("lab").getContext("webgl2");
         const real = context.drawElements.bind(context);
         context.drawElements = (...words) => (frames++, real(...words));
-        setTimeout(() => done(frames), 12000);
+        setTimeout(() => done(frames), 6000);
       }),
   );
   assert.equal(frames, 0, "it draws nothing while nothing happens");
   const session = await lab.context.newCDPSession(lab.page);
   await session.send("Performance.enable");
   const busy = async () => (await session.send("Performance.getMetrics")).metrics.find((m) => m.name === "TaskDuration").value;
-  // the best of three: what else the machine does lengthens what is measured
+  // up to three times: what else the machine does lengthens what is measured
   let share = 1;
-  for (let i = 0; i < 3; i++) {
+  for (let i = 0; i < 3 && share > 0.01; i++) {
     const before = await busy();
     await lab.page.waitForTimeout(5000);
     share = Math.min(share, ((await busy()) - before) / 5);
