@@ -17,7 +17,7 @@ use motion_lab_core::configuration::{ArmSizes, HitchCfg, Sizes};
 use motion_lab_core::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Shape};
 use motion_lab_core::num::greater;
 use motion_lab_core::random::{Seed, Stream};
-use motion_lab_core::robots::{CarCmd, Drivable, Hitch, Motion, Reach, Rusty};
+use motion_lab_core::robots::{CarCmd, Drivable, Hitch, Motion, RUSTY, Reach, Rusty, RustyCmd};
 use motion_lab_core::sensors::{RangeSensor, Scanner};
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, Resident, World as WorldModel};
 
@@ -146,21 +146,28 @@ fn what_a_robot_cannot_reach_changes_no_bit_of_a_tick() {
 }
 
 /// A proof asks what lies within the sagitta of the hull of a motion's two ends, as `Motion` says: no farther from the
-/// start than an end and the sagitta.
+/// start than an end and the sagitta. A rover's centre goes no way that its bound does not count.
 #[test]
 fn a_motion_reaches_all_that_its_proof_may_ask_about() {
-    let car = motion_lab_core::robots::HITCH.with_trailer();
-    let q = HitchCfg { body: Pose2::new(1.0, 2.0, 0.3), trailer: Some(0.1) };
-    for (v, phi, seconds) in [(1.5, 0.6, 0.05), (1.5, -0.6, 1.0), (-1.0, 0.4, 0.5)] {
-        let motion = car.drive(&q, &CarCmd { v, phi }, seconds).unwrap();
+    fn asked(motion: &impl Motion) -> f64 {
         let (from, to) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
         let count = from.parts().len();
-        let asked = (0..count).map(|k| {
+        let of_part = |k: usize| {
             let ends = from.parts()[k].placed().core().iter().zip(to.parts()[k].placed().core());
             let farthest = ends.map(|(a, b)| (b - a).norm()).fold(0.0, greater);
             farthest + motion.sagitta(k, 0.0, 1.0)
-        });
-        let (reach, asked) = (super::drive::reach(&motion, count), asked.fold(0.0, greater));
-        assert!(asked > 0.05 && reach >= asked - 1e-12, "{reach} m, and up to {asked} m are asked about");
+        };
+        let asked = (0..count).map(of_part).fold(0.0, greater);
+        let reach = super::drive::reach(motion, count);
+        assert!(reach >= asked - 1e-12, "{reach} m, and up to {asked} m are asked about");
+        asked
     }
+    let car = motion_lab_core::robots::HITCH.with_trailer();
+    let q = HitchCfg { body: Pose2::new(1.0, 2.0, 0.3), trailer: Some(0.1) };
+    for (v, phi, seconds) in [(1.5, 0.6, 0.05), (1.5, -0.6, 1.0), (-1.0, 0.4, 0.5)] {
+        assert!(asked(&car.drive(&q, &CarCmd { v, phi }, seconds).unwrap()) > 0.05);
+    }
+    // an arc of 0.3 m through a radian has a chord of 0.2877 m, and 1.2 m/s^2 over half a second stray 0.0375 m
+    let arc = RUSTY.drive(&q.body, &RustyCmd { v: 0.6, omega: 2.0 }, 0.5).unwrap();
+    assert!((asked(&arc) - 0.3252).abs() < 1e-4, "{}", asked(&arc));
 }
