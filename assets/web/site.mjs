@@ -31,7 +31,7 @@ const weights = [];
 /** Writes a file and its compressed copy. */
 function write(name, contents, part) {
   const bytes = Buffer.from(contents);
-  const quality = budget || bytes.length < 1e6 ? 11 : 5;
+  const quality = budget ? 11 : 5;
   const compressed = brotliCompressSync(bytes, {
     params: { [constants.BROTLI_PARAM_QUALITY]: quality, [constants.BROTLI_PARAM_LGWIN]: 24, [constants.BROTLI_PARAM_SIZE_HINT]: bytes.length },
   });
