@@ -1,6 +1,6 @@
 // What there is to do in a course: the book's figures and questions, the lab's lessons, the assignments.
-import { readFileSync } from "node:fs";
-import { join } from "node:path";
+import { readFileSync, readdirSync } from "node:fs";
+import { basename, join } from "node:path";
 
 /** The parts of a course, in the order in which they stand. */
 export const PARTS = { book: "The book", lessons: "Lessons", assignments: "Assignments" };
@@ -42,6 +42,9 @@ export function items(book, lab, folder) {
     const { parts = [], title = lesson.title, ...rest } = known.get(lesson.id) ?? {};
     known.set(lesson.id, { ...rest, ...lesson, parts: [...parts, "lessons"], title, task: lesson.title });
   }
+  const files = readdirSync(folder).map((name) => basename(name, ".ron"));
+  const unknown = files.find((file) => !lab.assignments.some(({ id }) => id === file));
+  if (unknown) throw new Error(`${unknown}.ron came after the site: run assets/web/build again`);
   for (const { id, world, script, ...goal } of lab.assignments) {
     if (known.has(id)) throw new Error(`an assignment and something else are called ${id}`);
     const { title, words } = headOf(id, readFileSync(join(folder, `${id}.ron`), "utf8"));

@@ -24,8 +24,8 @@ export const ARGS = [
   "--disable-sync",
 ];
 
-// Without a graphics card a frame takes as long as it has pixels: on a desktop's page half as many each way are drawn. For
-// pictures to look at, MOTION_LAB_PIXELS=1. A phone's page has few, and the heights of its lines are rounded to them.
+// Without a graphics card a frame takes as long as it has pixels: half as many each way are drawn, but for tests that choose
+// a screen and look at what stands on it. For pictures to look at, MOTION_LAB_PIXELS=1.
 const pixels = Number(process.env.MOTION_LAB_PIXELS ?? 0.5);
 
 let browser = null;
@@ -51,7 +51,7 @@ export class Lab {
 
   static async open(path = "/", { options = {}, wait = true, before = async () => {}, from = browser } = {}) {
     const lab = new Lab();
-    lab.context = await from.newContext({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: options.isMobile ? 1 : pixels, acceptDownloads: true, ...options });
+    lab.context = await from.newContext({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: options.viewport ? 1 : pixels, acceptDownloads: true, ...options });
     lab.page = await lab.context.newPage();
     const { page } = lab;
     page.on("console", (m) => ["error", "warning"].includes(m.type()) && !/GPU stall due to ReadPixels|Automatic fallback to software WebGL/.test(m.text()) && lab.faults.push(`console: ${m.text()}`));

@@ -6,10 +6,11 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { after, before, test } from "node:test";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
-import { Lab, begin, end, native, shots } from "./harness.mjs";
+import { Lab, begin, end, native, shots, target } from "./harness.mjs";
 import { seen, send } from "./on_book.mjs";
 import { download, wrong } from "./on_page.mjs";
 import { course, inner, pack, platform, readByPython, unpacked } from "./on_platform.mjs";
+import { items } from "../../../assets/web/course/items.mjs";
 import { judge } from "../../../assets/web/course/judge.js";
 import { timespan, timeOfDay } from "../../../assets/web/course/scorm.js";
 import { crc32 } from "../../../assets/web/course/zip.mjs";
@@ -67,6 +68,13 @@ test("the zip is read by others, has what its manifest says, and is the same eac
   pack("book,lessons");
   assert.ok(first.equals(readFileSync(zip)), "the same bytes");
   assert.throws(() => pack("exams"), /exams is no part/);
+});
+
+test("an assignment that the site's build has not told of is refused by name", () => {
+  const [book, lab] = ["book.json", "lab.json"].map((name) => JSON.parse(readFileSync(join(target, "web-parts", name), "utf8")));
+  assert.ok(items(book, lab, "book/assignments").some(({ id }) => id === "back_in"));
+  const before = { ...lab, assignments: lab.assignments.filter(({ id }) => id !== "back_in") };
+  assert.throws(() => items(book, before, "book/assignments"), /^Error: back_in\.ron came after the site: run assets\/web\/build again$/);
 });
 
 test("times have the forms of the run-time environment", () => {
