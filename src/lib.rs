@@ -68,8 +68,6 @@ pub use motion_lab_core::{
     collision, configuration, cspace, geometry, num, picture, planning, prelude, random, robots, sensors, short_list,
 };
 #[doc(hidden)]
-pub use motion_lab_core::{names, one_line, text_position};
-#[doc(hidden)]
 pub use motion_lab_sim::manifest;
 pub use motion_lab_sim::{anatomy, atlas, avoid, course, export, plans, run, run_page, shrink, simulation, tour};
 
@@ -87,14 +85,11 @@ pub mod recording {
     pub use motion_lab_sim::recording::*;
 }
 
-// the program's own; public because the program is a crate of its own
-#[doc(hidden)]
 #[cfg(any(feature = "cli", feature = "web"))]
-pub mod json_words;
+mod json_words;
 
-#[doc(hidden)]
 #[cfg(feature = "cli")]
-pub mod output;
+mod output;
 
 #[cfg(feature = "cli")]
 pub mod batch;
@@ -113,11 +108,13 @@ pub mod app {
     pub use crate::window::{LabSystems, is_busy};
 }
 
-// the program's own likewise: it writes links
-#[doc(hidden)]
+#[doc(hidden)] // public for tests alone
 pub mod web;
 
 pub mod guide;
+
+#[cfg(feature = "cli")]
+pub mod cli;
 
 /// The code in README runs as a test.
 #[cfg(doctest)]

@@ -9,12 +9,11 @@ use pyo3::prelude::*;
 use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
 use motion_lab_core::geometry::Pose2;
-use motion_lab_core::names::{hint, nearest};
 use motion_lab_core::planning::{Bounds, NoPath as LabNoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, RUSTY, Robot, Rusty};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::plans::{CheckerName, MAX_CLEARANCE, PlanAttempt, PlannerName, Task};
+use motion_lab_sim::plans::{CheckerName, MAX_CLEARANCE, PlanAttempt, PlannerName, Planners, Task};
 use motion_lab_sim::tour::BOOK_SEED;
 
 use crate::arrays::Given;
@@ -108,10 +107,7 @@ fn place(given: &Bound<'_, PyAny>, robot: Option<&Bound<'_, PyRobot>>) -> PyResu
 
 /// The planner of this name.
 fn named(name: &str) -> PyResult<PlannerName> {
-    PlannerName::of(name).ok_or_else(|| {
-        let near = hint(nearest(name, PlannerName::ALL.map(PlannerName::id)));
-        PyValueError::new_err(format!("no planner is called {name:?}{near}"))
-    })
+    Planners::default().named(name).map_err(|unknown| PyValueError::new_err(unknown.to_string()))
 }
 
 /// The task of a robot in a world of which the scene is there already.

@@ -1,4 +1,5 @@
-//! Parameter sweeps as values: a study, its axes, the run of each row, the rows as tables, and shards of them.
+//! Many runs as values. Parameter sweeps: a study, its axes, the run of each row, the rows as tables, and shards of
+//! them; and planners compared.
 //!
 //! A row is a function of the study and its number alone, so that any number of jobs, shards and machines makes the
 //! same bytes. A study file is RON:
@@ -20,6 +21,7 @@
 
 mod axis;
 mod columns;
+mod comparison;
 mod csv;
 mod error;
 mod gatherer;
@@ -38,6 +40,7 @@ mod tests;
 mod values;
 
 pub use columns::{CellKind, Column, MAX_ROBOT_COLUMNS};
+pub use comparison::{ComparedAttempt, KnownProblem, PathCost, PlanCase, PlannerComparison, PlannerMedians};
 pub use error::{MAX_RUNS, PLAN_VERSION, StudyError, SweepProblem};
 pub use gatherer::RowGatherer;
 pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};

@@ -11,7 +11,7 @@ pub enum RowValue {
     Empty,
     /// A whole number.
     Whole(u64),
-    /// A finite number.
+    /// A number; a finite one in a sweep's table.
     Number(f64),
     /// A text of one line, not empty.
     Text(String),
@@ -39,7 +39,7 @@ impl RowValue {
     }
 
     /// The value as a cell of a table for others.
-    fn to_table_cell(&self) -> String {
+    pub(super) fn to_table_cell(&self) -> String {
         if let RowValue::Text(text) = self { csv_cell(text) } else { self.to_text() }
     }
 

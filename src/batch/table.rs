@@ -60,7 +60,7 @@ pub enum TableError {
 pub struct TableWriter<W: Write + Send> {
     writer: SerializedFileWriter<W>,
     kinds: Vec<CellKind>,
-    rows: Vec<RunRow>,
+    rows: Vec<Vec<RowValue>>,
 }
 
 fn schema(columns: &[Column]) -> Result<Type, ParquetError> {
@@ -83,12 +83,17 @@ impl<W: Write + Send> TableWriter<W> {
     /// # Errors
     /// [`TableError`] when the output can't be written.
     pub fn new(output: W, study: &Study) -> Result<Self, TableError> {
-        let columns = serde_json::to_string(study.columns()).map_err(|error| ParquetError::External(error.into()))?;
-        let metadata = [(COLUMNS, columns), (PLAN, study.line().to_owned())];
-        let metadata = metadata.map(|(key, value)| KeyValue::new(key.to_owned(), value)).to_vec();
+        Self::of_columns(output, study.columns(), &[(PLAN, study.line())])
+    }
+
+    /// Begins a table of these columns, with entries of the file's metadata beside theirs.
+    pub(super) fn of_columns(output: W, columns: &[Column], beside: &[(&str, &str)]) -> Result<Self, TableError> {
+        let described = serde_json::to_string(columns).map_err(|error| ParquetError::External(error.into()))?;
+        let entries = [(COLUMNS, described.as_str())].into_iter().chain(beside.iter().copied());
+        let metadata = entries.map(|(key, value)| KeyValue::new(key.to_owned(), value.to_owned())).collect();
         let properties = WriterProperties::builder().set_key_value_metadata(Some(metadata)).build();
-        let writer = SerializedFileWriter::new(output, Arc::new(schema(study.columns())?), Arc::new(properties))?;
-        let kinds = study.columns().iter().map(|column| column.kind).collect();
+        let writer = SerializedFileWriter::new(output, Arc::new(schema(columns)?), Arc::new(properties))?;
+        let kinds = columns.iter().map(|column| column.kind).collect();
         Ok(TableWriter { writer, kinds, rows: Vec::new() })
     }
 
@@ -97,7 +102,12 @@ impl<W: Write + Send> TableWriter<W> {
     /// # Errors
     /// [`TableError`] when the output can't be written.
     pub fn row(&mut self, row: RunRow) -> Result<(), TableError> {
-        self.rows.push(row);
+        self.cells(row.cells)
+    }
+
+    /// Adds the next row, of a cell for each column.
+    pub(super) fn cells(&mut self, cells: Vec<RowValue>) -> Result<(), TableError> {
+        self.rows.push(cells);
         if self.rows.len() == GROUP { self.group() } else { Ok(()) }
     }
 
@@ -105,7 +115,7 @@ impl<W: Write + Send> TableWriter<W> {
         let mut group = self.writer.next_row_group()?;
         for (i, kind) in self.kinds.iter().enumerate() {
             let cells: Vec<&RowValue> =
-                self.rows.iter().map(|row| row.cells.get(i).unwrap_or(&RowValue::Empty)).collect();
+                self.rows.iter().map(|cells| cells.get(i).unwrap_or(&RowValue::Empty)).collect();
             column(&mut group, *kind, &cells)?;
         }
         group.close()?;

@@ -2,11 +2,14 @@
 
 mod commands;
 mod help;
+mod program;
 mod support;
 
-pub use help::exit;
-pub use support::console::{Data, say};
-pub use support::end::{Failure, Outcome};
+pub use program::Program;
+
+use help::exit;
+pub(crate) use support::console::{Data, say};
+pub(crate) use support::end::{Failure, Outcome};
 
 use clap::{CommandFactory, Parser, Subcommand};
 use support::console::be_quiet;
@@ -47,7 +50,7 @@ Data goes to standard output, messages to standard error.";
 /// folder `runs`, replays it and compares every bit.
 #[derive(Debug, Parser)]
 #[command(version, after_help = EXIT_CODES, after_long_help = EXIT_CODES)]
-pub struct Cli {
+pub(crate) struct Cli {
     #[command(subcommand)]
     command: Option<CliCommand>,
     /// Say only what is wrong: no notes on what was written, no progress.
@@ -87,7 +90,7 @@ enum CliCommand {
 
 /// The program's command line. A number that begins with a minus sign is a value of every option, so that what is wrong
 /// with it is said.
-pub fn program() -> clap::Command {
+fn command_line() -> clap::Command {
     with_negative_numbers(Cli::command())
 }
 
@@ -110,7 +113,7 @@ impl Cli {
     }
 
     /// Runs the command.
-    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+    fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
         if self.quiet {
             be_quiet();
         }
@@ -138,13 +141,13 @@ impl Cli {
             Some(CliCommand::World(world)) => world.run(data),
             Some(CliCommand::Script(script)) => script.run(data),
             Some(CliCommand::Sweep(sweep)) => sweep.run(data),
-            Some(CliCommand::Completions(completions)) => completions.run(program(), data),
-            Some(CliCommand::Man(man)) => man.run(program(), data),
+            Some(CliCommand::Completions(completions)) => completions.run(command_line(), data),
+            Some(CliCommand::Man(man)) => man.run(command_line(), data),
             Some(CliCommand::Grade(grade)) => grade.run(data),
             Some(CliCommand::Describe(describe)) => describe.run(data),
             #[cfg(feature = "window")]
             Some(CliCommand::Open(open)) => open.run(),
-            None => bare::bare(program(), data),
+            None => bare::bare(command_line(), data),
         }
     }
 }

@@ -23,6 +23,7 @@ use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World as WorldModel;
 use motion_lab_sim::atlas::Atlas;
 use motion_lab_sim::manifest::Widget;
+use motion_lab_sim::plans::Planners;
 use motion_lab_sim::run::{DT, Recipe};
 use motion_lab_sim::simulation::{
     CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,
@@ -42,6 +43,7 @@ impl Plugin for SessionPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins((SimulationPlugin, HistoryPlugin))
             .init_resource::<Interface>()
+            .init_resource::<Planners>()
             .init_resource::<Worlds>()
             .init_resource::<CrowdViews>()
             .init_resource::<Background>()
@@ -113,8 +115,10 @@ fn draw_worlds(world: &mut World) {
 pub struct ShownDashboard(pub Dashboard);
 
 fn start(world: &mut World) -> Result {
-    let kinds = world.resource::<RobotKinds>().known();
-    world.resource_mut::<Interface>().0.atlas.know(kinds);
+    let (kinds, planners) = (world.resource::<RobotKinds>().known(), world.resource::<Planners>().clone());
+    let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+    ui.atlas.know(kinds);
+    ui.plan.planners = planners;
     if !world.contains_resource::<RunConfig>() {
         start_run(world, TourConfig::default(), BOOK_SEED)?;
         world.resource_mut::<Transport>().playback = Playback::Playing;

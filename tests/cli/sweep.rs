@@ -1,7 +1,7 @@
 //! `sweep`: the same bytes from any number of jobs and shards, stops and goes on, merges and repeats.
 
 mod care;
-mod planner;
+pub mod planner;
 mod problems;
 mod trust;
 

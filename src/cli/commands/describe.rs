@@ -7,11 +7,11 @@ use serde_json::{Map, Value, json};
 
 use super::grade::read_assignment;
 use crate::cli::{Data, Failure, Outcome};
-use motion_lab::configuration::RobotKind;
-use motion_lab::manifest::{ChapterFormula, Formula, Lesson, Widget};
-use motion_lab::picture::{Rgb, Role, Theme};
-use motion_lab::recording::Assignment;
-use motion_lab::run::{Event, Quantized, RobotInput, Script, seconds};
+use motion_lab_core::configuration::RobotKind;
+use motion_lab_core::picture::{Rgb, Role, Theme};
+use motion_lab_sim::course::Assignment;
+use motion_lab_sim::manifest::{ChapterFormula, Formula, Lesson, Widget};
+use motion_lab_sim::run::{Event, Quantized, RobotInput, Script, seconds};
 
 /// Print what a page about the lab needs, as JSON: each widget's words, the formulas of the configuration spaces in
 /// MathML, the colours of the roles on light and on dark paper, and what assignments ask for.

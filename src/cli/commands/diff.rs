@@ -4,8 +4,8 @@ use std::path::PathBuf;
 use std::slice::from_ref;
 
 use clap::Args;
-use motion_lab::export::JsonNumber;
-use motion_lab::run::{Divergence, DivergingScan, Log, SetupDifference, Value, first_divergence};
+use motion_lab_sim::export::JsonNumber;
+use motion_lab_sim::run::{Divergence, DivergingScan, Log, SetupDifference, Value, first_divergence};
 use serde::Serialize;
 
 use crate::cli::support::log_source::{read_full_log, say_damage};

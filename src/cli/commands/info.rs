@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::export::JsonNumber;
-use motion_lab::run::{DT, LogKind, Recipe};
-use motion_lab::tour::TourConfig;
+use motion_lab_sim::export::JsonNumber;
+use motion_lab_sim::run::{DT, LogKind, Recipe};
+use motion_lab_sim::tour::TourConfig;
 use serde::Serialize;
 
 use crate::cli::support::input::{shown, title, worst_of_each};

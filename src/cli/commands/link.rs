@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::web::Link;
 use clap::Args;
-use motion_lab::web::Link;
 
 use crate::cli::support::choices::Site;
 use crate::cli::support::input::shown;

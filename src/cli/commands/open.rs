@@ -2,13 +2,15 @@
 
 use std::path::PathBuf;
 
+use bevy::app::App;
 use clap::Args;
 
-use motion_lab::app::{Opened, WindowError, open_in_window};
-use motion_lab::worlds::World;
+use crate::app::{Opened, WindowError, open_in_window};
+use motion_lab_core::worlds::World;
 
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::read_bytes_if;
+use crate::cli::support::planners::planners;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, Outcome};
 
@@ -30,8 +32,13 @@ pub struct OpenArgs {
 impl OpenArgs {
     /// Runs the command.
     pub fn run(self) -> Result<Outcome, Failure> {
-        ended(open_in_window(self.what.as_deref().map_or(Ok(Opened::Tour), found)?, |_| {}))
+        ended(open_in_window(self.what.as_deref().map_or(Ok(Opened::Tour), found)?, add_planners))
     }
+}
+
+/// The window offers the planners that the program has.
+fn add_planners(app: &mut App) {
+    app.insert_resource(planners().clone());
 }
 
 /// The world or the log of this name.
@@ -55,7 +62,7 @@ fn found(what: &str) -> Result<Opened, Failure> {
 /// Opens the window with the tour: the program without a command, unless it is built to record the tour.
 #[cfg(not(feature = "headless"))]
 pub fn tour() -> Result<Outcome, Failure> {
-    ended(motion_lab::app::run_window())
+    ended(crate::app::run_window_with(add_planners))
 }
 
 /// The code with which Ctrl-C or a termination signal closes the window.

@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
+use crate::capture::{CaptureForm, MAX_LINES, RunPlot, plot};
 use clap::Args;
-use motion_lab::capture::{CaptureForm, MAX_LINES, RunPlot, plot};
-use motion_lab::configuration::Kinds;
-use motion_lab::names::did_you_mean;
-use motion_lab::run::{Difference, Log, Quantity, Recipe, Series, SeriesGatherer};
+use motion_lab_core::configuration::Kinds;
+use motion_lab_core::names::did_you_mean;
+use motion_lab_sim::run::{Difference, Log, Quantity, Recipe, Series, SeriesGatherer};
 
 use crate::cli::support::choices::{RobotNames, form, one_of};
 use crate::cli::support::input::{is_dash, shown};

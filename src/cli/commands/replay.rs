@@ -4,7 +4,7 @@ use crate::cli::support::choices::log_kind;
 use std::path::PathBuf;
 
 use clap::Args;
-use motion_lab::run::{Comparison, Frame, Log, LogError, LogKind, LogWriter};
+use motion_lab_sim::run::{Comparison, Frame, Log, LogError, LogKind, LogWriter};
 use serde::Serialize;
 
 use crate::cli::support::interrupt;

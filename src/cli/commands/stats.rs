@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::configuration::Kinds;
-use motion_lab::export::{JsonNumber, json_seed};
-use motion_lab::run::{Recipe, RobotStats, RunStats, StatsColumn, StatsGatherer, StatsNumber, seconds};
+use motion_lab_core::configuration::Kinds;
+use motion_lab_sim::export::{JsonNumber, json_seed};
+use motion_lab_sim::run::{Recipe, RobotStats, RunStats, StatsColumn, StatsGatherer, StatsNumber, seconds};
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use motion_lab::capture::RunFigure;
-use motion_lab::picture::Theme;
-use motion_lab::recording::Verification;
-use motion_lab::run::{LogKind, Recipe};
-use motion_lab::tour::{BOOK_SEED, TourConfig};
+use crate::capture::RunFigure;
+use motion_lab_core::picture::Theme;
+use motion_lab_sim::recording::Verification;
+use motion_lab_sim::run::{LogKind, Recipe};
+use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 use super::record::{Ended, StopRule, write_run};
 use crate::cli::support::console::note;

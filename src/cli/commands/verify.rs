@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::recording::Verification;
-use motion_lab::run::{Digest, LogKind};
+use motion_lab_sim::recording::Verification;
+use motion_lab_sim::run::{Digest, LogKind};
 use serde::Serialize;
 
 use crate::cli::support::console::note;

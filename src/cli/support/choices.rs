@@ -4,16 +4,16 @@
 use std::ffi::OsStr;
 use std::str::FromStr;
 
+use crate::capture::CaptureForm;
 use clap::builder::{PossibleValue, PossibleValuesParser, StringValueParser, TypedValueParser};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Args, Command, Error};
-use motion_lab::capture::CaptureForm;
-use motion_lab::configuration::{RobotKind, WrittenCoordinate};
-use motion_lab::names::nearest;
-use motion_lab::picture::Theme;
-use motion_lab::plans::CheckerName;
-use motion_lab::run::LogKind;
-use motion_lab::worlds::World;
+use motion_lab_core::configuration::{RobotKind, WrittenCoordinate};
+use motion_lab_core::names::nearest;
+use motion_lab_core::picture::Theme;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::plans::CheckerName;
+use motion_lab_sim::run::LogKind;
 
 use super::console::note;
 
@@ -72,29 +72,29 @@ impl FromStr for NumberList {
 }
 
 /// Reads one of these values by its name. Each has its help, which may be empty.
-pub fn one_of<T: Copy + Send + Sync + 'static, const N: usize>(
-    values: [(&'static str, T, &'static str); N],
+pub fn one_of<T: Copy + Send + Sync + 'static>(
+    values: impl IntoIterator<Item = (&'static str, T, &'static str)>,
 ) -> impl TypedValueParser<Value = T> {
-    NamedValues { values }
+    NamedValues { values: values.into_iter().collect() }
 }
 
 /// A parser of values by their names. A wrong one that is near a name, in any case of letters, gets that as a tip.
 #[derive(Clone)]
-struct NamedValues<T, const N: usize> {
-    values: [(&'static str, T, &'static str); N],
+struct NamedValues<T> {
+    values: Vec<(&'static str, T, &'static str)>,
 }
 
-impl<T: Copy, const N: usize> NamedValues<T, N> {
-    fn shown(&self) -> [PossibleValue; N] {
-        std::array::from_fn(|i| {
-            let (name, _, help) = &self.values[i];
+impl<T: Copy> NamedValues<T> {
+    fn shown(&self) -> Vec<PossibleValue> {
+        let shown = |(name, _, help): &(&'static str, T, &'static str)| {
             let value = PossibleValue::new(*name);
             if help.is_empty() { value } else { value.help(*help) }
-        })
+        };
+        self.values.iter().map(shown).collect()
     }
 }
 
-impl<T: Copy + Send + Sync + 'static, const N: usize> TypedValueParser for NamedValues<T, N> {
+impl<T: Copy + Send + Sync + 'static> TypedValueParser for NamedValues<T> {
     type Value = T;
 
     fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<T, Error> {

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use motion_lab::output::resolved;
-use motion_lab::run::{Log, LogError};
+use crate::output::resolved;
+use motion_lab_sim::run::{Log, LogError};
 
 use crate::cli::Failure;
 

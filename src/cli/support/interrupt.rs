@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use motion_lab::output::abandon_all;
+use crate::output::abandon_all;
 
 use crate::cli::Failure;
 

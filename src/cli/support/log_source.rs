@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use motion_lab::run::{Digest, Log, LogError, LogKind, ReadLog};
+use motion_lab_sim::run::{Digest, Log, LogError, LogKind, ReadLog};
 
 use super::input::{read_bytes_if, shown};
 use super::progress::CommandProgress;

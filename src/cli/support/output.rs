@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use motion_lab::output;
+use crate::output;
 
 use super::gate::{self, is_dash, shown};
 use super::target::Target;

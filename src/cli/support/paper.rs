@@ -1,10 +1,10 @@
 //! `PaperArgs`, what pictures are drawn on, and how they are written.
 
-use motion_lab::picture::Theme;
+use motion_lab_core::picture::Theme;
 use std::path::Path;
 
+use crate::capture::{self, CaptureError, CaptureForm, Captured, Paper};
 use clap::Args;
-use motion_lab::capture::{self, CaptureError, CaptureForm, Captured, Paper};
 
 use super::choices;
 use super::target::Target;

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use motion_lab::configuration::RobotKind;
-use motion_lab::recording::{Recorder, Run, RunError, Verification};
-use motion_lab::run::{Comparison, Difference, Frame, Log, Recipe, Recorded};
-use motion_lab::simulation::SpawnError;
+use motion_lab_core::configuration::RobotKind;
+use motion_lab_sim::recording::{Recorder, Run, RunError, Verification};
+use motion_lab_sim::run::{Comparison, Difference, Frame, Log, Recipe, Recorded};
+use motion_lab_sim::simulation::SpawnError;
 
 use super::progress::CommandProgress;
 use super::words::unfit;
@@ -47,9 +47,9 @@ pub fn begin(recipe: &Recipe) -> Result<Recorder, Failure> {
     Ok(Recorder::of(recipe).map_err(|error| unstarted(error, recipe))?.without_keyframes())
 }
 
-/// Simulates a log's run again and compares it: see [`motion_lab::recording::verify`].
+/// Simulates a log's run again and compares it: see [`motion_lab_sim::recording::verify`].
 pub fn verify(log: &Log, on_tick: impl FnMut(&Recorder)) -> Result<Verification, Failure> {
-    motion_lab::recording::verify(log, on_tick).map_err(|error| refused(&error))
+    motion_lab_sim::recording::verify(log, on_tick).map_err(|error| refused(&error))
 }
 
 /// Calls `see` with every frame of a log, from tick 0 on, and shows how far it has come. The frames of a log of digests

@@ -1,11 +1,11 @@
 //! The summary of a run: its robots' last states, its worlds, its digest.
 
-use motion_lab::configuration::RobotKind;
-use motion_lab::export::{JsonNumber, json_seed};
-use motion_lab::recording::printed_configuration;
-use motion_lab::run::{Digest, Frame, Log, Recipe, Recorded, RobotState};
-use motion_lab::tour::TourConfig;
-use motion_lab::worlds::{Resident, World};
+use motion_lab_core::configuration::RobotKind;
+use motion_lab_core::worlds::{Resident, World};
+use motion_lab_sim::export::{JsonNumber, json_seed};
+use motion_lab_sim::recording::printed_configuration;
+use motion_lab_sim::run::{Digest, Frame, Log, Recipe, Recorded, RobotState};
+use motion_lab_sim::tour::TourConfig;
 use serde::Serialize;
 
 use crate::cli::{Data, Failure};

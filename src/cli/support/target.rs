@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::output::{PassingFolder, resolved};
+use crate::output::{PassingFolder, resolved};
 
 use super::console::note;
 use super::gate::{self, OutputKind, as_on_disk, is_dash};

@@ -3,10 +3,10 @@
 use std::fmt::Display;
 use std::path::Path;
 
-use motion_lab::names::did_you_mean;
-use motion_lab::run::{Script, ScriptError, ScriptProblem};
-use motion_lab::tour::TourConfig;
-use motion_lab::worlds::World;
+use motion_lab_core::names::did_you_mean;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::run::{Script, ScriptError, ScriptProblem};
+use motion_lab_sim::tour::TourConfig;
 
 use super::input::shown;
 use crate::cli::Failure;

@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use motion_lab::names::did_you_mean;
-use motion_lab::worlds::import::Scenario;
-use motion_lab::worlds::{World, turns};
+use motion_lab_core::names::did_you_mean;
+use motion_lab_core::worlds::{World, turns};
+use motion_lab_import::Scenario;
 
 use super::console::note;
 use super::input::{MAX_TEXT, MAX_WORLD, is_dash, read_text_of, shown};

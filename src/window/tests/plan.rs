@@ -269,6 +269,49 @@ fn a_path_goes_to_a_file_and_comes_back_and_a_wrong_file_changes_nothing() {
 }
 
 #[test]
+fn a_planner_of_a_programs_own_is_chosen_and_stepped_where_it_suits_the_robot() {
+    use motion_lab_core::planning::RrtConnect;
+    use motion_lab_sim::plans::{OwnPlanner, Planners};
+    static MINE: OwnPlanner = OwnPlanner {
+        arm: Some(|problem| Ok(Box::new(RrtConnect::new(problem)))),
+        ..OwnPlanner::new("mine", "Mine", "As the lab's, for arms of two links")
+    };
+    let mut planners = Planners::default();
+    planners.register(&MINE).unwrap();
+    let mut app = app(Duration::from_millis(25));
+    app.insert_resource(planners);
+    let mut harness = lab_of(app, WIDE);
+    click(&mut harness, "Plan");
+    let choose = |harness: &mut Harness<'_, Lab>| {
+        harness.get_all_by_role(egui::accesskit::Role::ComboBox).nth(2).unwrap().click();
+        harness.run_steps(3);
+    };
+    choose(&mut harness);
+    harness.get_by_label("Mine").click();
+    harness.run_steps(3);
+    assert_eq!(plan(&harness).planner().id(), "mine");
+    harness.get_by_label("As the lab's, for arms of two links");
+    play(&mut harness);
+    harness.get_by_label_contains(" m, proven");
+    assert!(plan(&harness).command().unwrap().starts_with("motion-lab plan --planner mine --robot Reach "));
+    // no trailer has it, and the arm has it once more
+    let task = |harness: &mut Harness<'_, Lab>, name: &str| {
+        harness.get_all_by_role(egui::accesskit::Role::ComboBox).nth(1).unwrap().click();
+        harness.run_steps(3);
+        harness.get_by_label(name).click();
+        harness.run_steps(3);
+    };
+    task(&mut harness, "Hitch with its trailer, Lot");
+    assert_eq!(plan(&harness).planner().id(), "hybrid-a-star");
+    choose(&mut harness);
+    assert!(harness.query_by_label("Mine").is_none());
+    choose(&mut harness);
+    task(&mut harness, "Reach, Workbench");
+    choose(&mut harness);
+    harness.get_by_label("Mine");
+}
+
+#[test]
 fn a_trailer_is_planned_for_by_choice_and_each_robot_has_its_planners() {
     planned(PHONE).get_by_label_contains("workspace. RRT-Connect for Reach");
     let mut wide = planned(WIDE);

@@ -3,5 +3,6 @@
 pub mod habits;
 pub mod manual;
 mod messages;
+mod own;
 pub mod shells;
 mod width;

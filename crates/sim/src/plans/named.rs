@@ -2,6 +2,8 @@
 
 use motion_lab_core::robots::AnyRobot;
 
+use super::own::OwnPlanner;
+
 /// A planner by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlannerName {
@@ -31,6 +33,8 @@ pub enum PlannerName {
     CellDecomposition,
     /// A search over what a car can drive.
     HybridAStar,
+    /// One that a program has of its own.
+    Own(&'static OwnPlanner),
 }
 
 /// The robots that a planner plans for.
@@ -42,6 +46,8 @@ enum Plans {
     /// Those whose space has two dimensions.
     Planes,
     Cars,
+    /// Those that a planner of a program's own is made for.
+    Own(&'static OwnPlanner),
 }
 
 /// A row of the table of planners.
@@ -59,10 +65,14 @@ const fn row(id: &'static str, title: &'static str, plans: Plans, words: &'stati
 impl PlannerName {
     /// Whether it joins samples that it draws.
     pub const fn draws_samples(self) -> bool {
-        matches!(self, PlannerName::RrtConnect | PlannerName::Rrt | PlannerName::RrtStar | PlannerName::Prm)
+        match self {
+            PlannerName::RrtConnect | PlannerName::Rrt | PlannerName::RrtStar | PlannerName::Prm => true,
+            PlannerName::Own(own) => own.draws_samples,
+            _ => false,
+        }
     }
 
-    /// All planners, in the order of the lists.
+    /// The lab's planners, in the order of the lists. [`Planners`](super::Planners) has those of a program's own too.
     pub const ALL: [PlannerName; 13] = [
         PlannerName::RrtConnect,
         PlannerName::Rrt,
@@ -130,6 +140,7 @@ impl PlannerName {
             PlannerName::HybridAStar => {
                 row("hybrid-a-star", "Hybrid A*", Cars, "A search over what a car can drive, with a trailer or without")
             }
+            PlannerName::Own(own) => row(own.id, own.title, Plans::Own(own), own.words),
         }
     }
 
@@ -148,11 +159,6 @@ impl PlannerName {
         self.about().words
     }
 
-    /// The planner with this [`id`](Self::id).
-    pub fn of(id: &str) -> Option<PlannerName> {
-        PlannerName::ALL.into_iter().find(|name| name.id() == id)
-    }
-
     /// The planner that suits a robot.
     pub fn default_for(robot: &AnyRobot) -> Self {
         match robot {
@@ -167,6 +173,8 @@ impl PlannerName {
     /// The reason in words.
     pub const fn suits(self, robot: &AnyRobot) -> Result<(), &'static str> {
         match (self.about().plans, robot) {
+            (Plans::Own(own), robot) if own.suits(robot) => Ok(()),
+            (Plans::Own(_), _) => Err("it is not made for this robot"),
             (Plans::Cars, AnyRobot::Hitch(_)) => Ok(()),
             (Plans::Cars, _) => Err("it plans for a car only"),
             (_, AnyRobot::Hitch(_)) => Err("it plans straight lines, which no car can drive"),
@@ -180,6 +188,7 @@ impl PlannerName {
     pub const fn iterations(self) -> u64 {
         match self.about().plans {
             Plans::Cars => 20_000,
+            Plans::Own(own) => own.iterations,
             Plans::Lines | Plans::Discs | Plans::Planes => 100_000,
         }
     }

@@ -1,13 +1,13 @@
 //! `Capture`, what `capture` is asked for.
 
-use crate::cli::commands::plan::task::planner_name;
+use crate::capture::CaptureForm;
 use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, form, one_of};
 use crate::cli::support::paper::PaperArgs;
+use crate::cli::support::planners::planner_name;
 use clap::Args;
-use motion_lab::anatomy::Tab;
-use motion_lab::capture::CaptureForm;
-use motion_lab::manifest::Widget;
-use motion_lab::plans::PlannerName;
+use motion_lab_sim::anatomy::Tab;
+use motion_lab_sim::manifest::Widget;
+use motion_lab_sim::plans::PlannerName;
 use std::path::PathBuf;
 
 /// Draw what a widget shows, without a display: a figure for a page, as SVG or PNG; as GIF a run over a span of ticks,

@@ -6,10 +6,10 @@ mod run;
 mod widgets;
 
 pub use args::Capture;
-use motion_lab::manifest::Widget;
+use motion_lab_sim::manifest::Widget;
 use std::path::Path;
 
-use motion_lab::capture::{CaptureError, CaptureForm, Paper};
+use crate::capture::{CaptureError, CaptureForm, Paper};
 
 use crate::cli::support::input::is_dash;
 use crate::cli::support::paper::{not_written, write_picture};

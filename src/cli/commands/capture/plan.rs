@@ -1,9 +1,9 @@
 //! The figure of the widget Plan: a task, and what a planner makes of it.
 
-use motion_lab::capture::{CaptureForm, Paper, PlanOutcome};
-use motion_lab::plans::{PlannerName, Task};
-use motion_lab::random::Seed;
-use motion_lab::tour::BOOK_SEED;
+use crate::capture::{CaptureForm, Paper, PlanOutcome};
+use motion_lab_core::random::Seed;
+use motion_lab_sim::plans::{PlannerName, Task};
+use motion_lab_sim::tour::BOOK_SEED;
 
 use super::args::{Capture, SceneArgs};
 use crate::cli::commands::plan::{drawing, film, solve, task};
@@ -47,5 +47,5 @@ fn asked(scene: &SceneArgs) -> Result<Task, Failure> {
             false => Ok(Task::round_the_post()),
         };
     };
-    task::find(robot.as_deref().unwrap_or("Reach"), world.as_deref(), q.as_ref(), goal, motion_lab::plans::TUBE)
+    task::find(robot.as_deref().unwrap_or("Reach"), world.as_deref(), q.as_ref(), goal, motion_lab_sim::plans::TUBE)
 }

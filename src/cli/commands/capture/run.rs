@@ -1,11 +1,11 @@
 //! Widgets that show a run: at a tick, and over a span of them.
 
-use motion_lab::capture::{CaptureForm, CaptureSpan, Paper, Subject, at_tick_with_robots, film, write};
-use motion_lab::names::did_you_mean;
-use motion_lab::random::Seed;
-use motion_lab::recording::Run;
-use motion_lab::run::{Log, Script};
-use motion_lab::tour::{BOOK_SEED, TourConfig};
+use crate::capture::{CaptureForm, CaptureSpan, Paper, Subject, at_tick_with_robots, film, write};
+use motion_lab_core::names::did_you_mean;
+use motion_lab_core::random::Seed;
+use motion_lab_sim::recording::Run;
+use motion_lab_sim::run::{Log, Script};
+use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 use super::args::{Capture, RunArgs};
 use crate::cli::commands::query::Chosen;
@@ -15,7 +15,7 @@ use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, say};
-use motion_lab::manifest::Widget;
+use motion_lab_sim::manifest::Widget;
 
 impl Capture {
     /// Writes what the widget shows of the run.

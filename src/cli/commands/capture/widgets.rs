@@ -1,12 +1,12 @@
 //! Figures of the widgets that need no run: anatomy, atlas, configuration space.
 
-use motion_lab::anatomy::{Anatomy, Tab, WorldSource};
-use motion_lab::atlas::{Atlas, GridLayer, TeleportRefusal};
-use motion_lab::capture::{self, AtlasSheet, Captured, Paper, unit};
-use motion_lab::cspace::{CellMap, Slice};
-use motion_lab::picture::{Item, readout};
-use motion_lab::robots::Robot;
-use motion_lab::worlds::World;
+use crate::capture::{self, AtlasSheet, Captured, Paper, unit};
+use motion_lab_core::cspace::{CellMap, Slice};
+use motion_lab_core::picture::{Item, readout};
+use motion_lab_core::robots::Robot;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::anatomy::{Anatomy, Tab, WorldSource};
+use motion_lab_sim::atlas::{Atlas, GridLayer, TeleportRefusal};
 
 use super::args::SceneArgs;
 use crate::cli::Failure;

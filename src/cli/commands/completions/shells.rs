@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
 use clap_complete::Shell;
-use motion_lab::worlds::World;
+use motion_lab_core::worlds::World;
 
 use crate::cli::commands::query::Question;
 

@@ -7,8 +7,8 @@ mod stills;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl, write_rerun_of_file};
-use motion_lab::run::Log;
+use motion_lab_sim::export::{ExportError, write_csv, write_foxglove_of_file, write_jsonl, write_rerun_of_file};
+use motion_lab_sim::run::Log;
 
 use crate::cli::support::input::{is_dash, read_bytes};
 use crate::cli::support::log_source::{LogSource, MAX_LOG, read_full_log, read_log, say_damage};

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
-use motion_lab::recording::Recorder;
-use motion_lab::run::{Comparison, Log, Recipe};
-use motion_lab::run_page::{PageTemplate, RunPageError, TemplateError};
+use motion_lab_sim::recording::Recorder;
+use motion_lab_sim::run::{Comparison, Log, Recipe};
+use motion_lab_sim::run_page::{PageTemplate, RunPageError, TemplateError};
 
 use crate::cli::support::input::{read_bytes, shown};
 use crate::cli::support::progress::CommandProgress;

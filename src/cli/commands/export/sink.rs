@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::path::PathBuf;
 
-use motion_lab::export::ExportError;
+use motion_lab_sim::export::ExportError;
 
 use crate::cli::support::output::ReportedFile;
 use crate::cli::support::target::Target;

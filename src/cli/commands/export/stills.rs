@@ -4,6 +4,7 @@ use std::path::Path;
 
 use clap::Args;
 
+use crate::capture::{RunFigure, TICK_HUNDREDTHS, with_names};
 use crate::cli::Failure;
 use crate::cli::support::choices;
 use crate::cli::support::log_source::digest_of;
@@ -11,10 +12,9 @@ use crate::cli::support::output::ReportedFile;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::simulate::show;
 use crate::cli::support::target::Target;
-use motion_lab::capture::{RunFigure, TICK_HUNDREDTHS, with_names};
-use motion_lab::picture::{Role, Sheet, Theme};
-use motion_lab::run::Log;
+use motion_lab_core::picture::{Role, Sheet, Theme};
 use motion_lab_raster::{GifWriter, Image, Raster, RasterError, Size, write_png};
+use motion_lab_sim::run::Log;
 
 /// Which ticks are drawn, and how large.
 #[derive(Debug, Args)]

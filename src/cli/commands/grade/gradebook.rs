@@ -1,6 +1,6 @@
 //! The grades as a table of comma-separated values, and as Gradescope's `results.json`.
 
-use motion_lab::export::csv_cell;
+use motion_lab_sim::export::csv_cell;
 use serde::Serialize;
 
 use crate::cli::support::words::counted;
@@ -84,7 +84,7 @@ impl Results {
 
 #[cfg(test)]
 mod tests {
-    use motion_lab::export::JsonNumber;
+    use motion_lab_sim::export::JsonNumber;
 
     use super::*;
 

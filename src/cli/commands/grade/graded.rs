@@ -1,7 +1,7 @@
 //! A submission's grade, as JSON and as lines for people.
 
-use motion_lab::export::{JsonNumber, json_seed};
-use motion_lab::recording::{Assignment, Attempt, Criterion, Grade, Refusal};
+use motion_lab_sim::course::{Assignment, Attempt, Criterion, Grade, Refusal};
+use motion_lab_sim::export::{JsonNumber, json_seed};
 use serde::Serialize;
 
 use crate::cli::{Data, Failure};

@@ -7,11 +7,10 @@ mod submissions;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::recording::{
-    Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Refusal, RunError, Submission, verify,
-};
-use motion_lab::run::{Log, LogError, Script};
-use motion_lab::simulation::SpawnError;
+use motion_lab_sim::course::{Assignment, AssignmentError, AssignmentFile, AssignmentProblem, Refusal, Submission};
+use motion_lab_sim::recording::{RunError, verify};
+use motion_lab_sim::run::{Log, LogError, Script};
+use motion_lab_sim::simulation::SpawnError;
 
 use crate::cli::support::console::note;
 use crate::cli::support::input::{MAX_TEXT, read_bytes, read_text};

@@ -1,7 +1,7 @@
 //! What to do where there is no path.
 
-use motion_lab::collision::ProblemError;
-use motion_lab::planning::NoPath;
+use motion_lab_core::collision::ProblemError;
+use motion_lab_core::planning::NoPath;
 
 /// What to do where there is no path.
 pub(super) fn next(reason: &NoPath) -> &'static str {

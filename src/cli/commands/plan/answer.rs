@@ -1,9 +1,9 @@
 //! `PlanAnswer`, what came of planning.
 
-use motion_lab::capture::{proven, unit};
-use motion_lab::export::{JsonNumber, json_seed};
-use motion_lab::planning::{Effort, NoPath};
-use motion_lab::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
+use crate::capture::{proven, unit};
+use motion_lab_core::planning::{Effort, NoPath};
+use motion_lab_sim::export::{JsonNumber, json_seed};
+use motion_lab_sim::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
 
 use super::advice::next;
@@ -136,7 +136,7 @@ impl PlanAnswer {
     /// Prints the run that plays the path in words.
     pub fn print_run(&self, data: &mut Data) -> Result<(), Failure> {
         if let (Some(ticks), Some(strayed)) = (self.ticks, self.strayed) {
-            let (seconds, strayed) = (motion_lab::run::seconds(ticks), 1000.0 * strayed.0);
+            let (seconds, strayed) = (motion_lab_sim::run::seconds(ticks), 1000.0 * strayed.0);
             let ticks = counted(ticks, "tick");
             data.line(format!("played     {ticks}, {seconds} s, at most {strayed:.3} mm off the path"))?;
         }

@@ -1,12 +1,12 @@
 //! `PlanArgs`, what `plan` is asked for.
 
-use super::task;
+use crate::capture::CaptureForm;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, checker, form};
 use crate::cli::support::paper::PaperArgs;
+use crate::cli::support::planners::planner_name;
 use clap::Args;
-use motion_lab::capture::CaptureForm;
-use motion_lab::plans::{CheckerName, PlannerName};
+use motion_lab_sim::plans::{CheckerName, PlannerName};
 use std::path::PathBuf;
 
 /// Plan a path that is proven free along its whole length, or say why there is none.
@@ -39,7 +39,7 @@ Examples:
   motion-lab plan --compare rrt-connect,a-star --robot rusty --world arena.ron --problems arena.scen --csv all.csv")]
 pub struct PlanArgs {
     /// The planner. [default: hybrid-a-star for a car, rrt-connect for any other robot]
-    #[arg(long, value_name = "PLANNER", value_parser = task::planner_name(), conflicts_with = "compare")]
+    #[arg(long, value_name = "PLANNER", value_parser = planner_name(), conflicts_with = "compare")]
     pub(super) planner: Option<PlannerName>,
     /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty
     /// (x,y), reach (th1,th2), choset (the same arm without thickness), reach3 (th1,th2,th3), hitch (x,y,theta;
@@ -109,7 +109,7 @@ pub struct PlanArgs {
     #[arg(long)]
     pub(super) json: bool,
     /// Compare these planners, joined by commas.
-    #[arg(long, value_parser = task::planner_name(), value_delimiter = ',', value_name = "PLANNERS")]
+    #[arg(long, value_parser = planner_name(), value_delimiter = ',', value_name = "PLANNERS")]
     pub(super) compare: Vec<PlannerName>,
     /// Compare them by every problem of this MovingAI scenario, from start to goal; the world is that of its map.
     #[arg(long, value_name = "FILE", requires = "compare", conflicts_with_all = ["from", "to"])]
@@ -117,9 +117,13 @@ pub struct PlanArgs {
     /// The seeds of a comparison, without the last. [default: 0..100; of a scenario's problems 0..1]
     #[arg(long, value_name = "A..B", requires = "compare")]
     pub(super) seeds: Option<SeedRange>,
-    /// Write a row for each attempt of a comparison to this file, as CSV.
+    /// Write a row for each attempt of a comparison to this file: as Parquet if its name ends so, else as CSV.
     #[arg(long, value_name = "FILE", requires = "compare")]
     pub(super) csv: Option<PathBuf>,
+    /// Write the lengths of a comparison's paths as they fell to this file, as CSV: after how many iterations each
+    /// attempt had its first path, and each shorter one.
+    #[arg(long, value_name = "FILE", requires = "compare")]
+    pub(super) costs: Option<PathBuf>,
     #[command(flatten)]
     pub(super) paper: PaperArgs,
 }

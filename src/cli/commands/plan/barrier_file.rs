@@ -1,9 +1,9 @@
 //! `BarrierFile`, the proof that there is no path as JSON.
 
-use motion_lab::collision::Scene;
-use motion_lab::cspace::{Barrier, BarrierAxis, BarrierCell};
-use motion_lab::export::JsonNumber;
-use motion_lab::plans::{PlanAttempt, Task};
+use motion_lab_core::collision::Scene;
+use motion_lab_core::cspace::{Barrier, BarrierAxis, BarrierCell};
+use motion_lab_sim::export::JsonNumber;
+use motion_lab_sim::plans::{PlanAttempt, Task};
 use serde::Serialize;
 
 use crate::cli::commands::query::{Dimensions, ObstacleShapes};

@@ -1,6 +1,6 @@
 //! `BlockersAnswer`, what to move where there is no path.
 
-use motion_lab::plans::{Blocker, BlockerKind, NoRemoval, Removal};
+use motion_lab_sim::plans::{Blocker, BlockerKind, NoRemoval, Removal};
 use serde::Serialize;
 
 /// What to move for a path to appear, or why that is not known.

@@ -2,48 +2,23 @@
 
 use std::path::Path;
 
-use motion_lab::configuration::{AnyConfiguration, RobotKind, WrittenCoordinate};
-use motion_lab::plans::Task;
-use motion_lab::worlds::import::{MapCell, Scenario};
+use motion_lab_core::configuration::{RobotKind, WrittenCoordinate};
+use motion_lab_import::{MapCell, Scenario};
+use motion_lab_sim::plans::Task;
 
 use super::args::PlanArgs;
 use super::task;
+use crate::batch::{KnownProblem, PlanCase};
 use crate::cli::Failure;
 use crate::cli::commands::query::Chosen;
 use crate::cli::support::choices::NumberList;
 use crate::cli::support::world_source::read_scenario;
 
-/// What is known of a problem of a scenario.
-#[derive(Clone, Copy, Debug)]
-pub struct KnownProblem {
-    /// Its number in the file, from 1.
-    pub number: usize,
-    pub bucket: u64,
-    /// The length that the file says is the shortest, metres.
-    pub optimal: f64,
-}
-
-/// Where a path begins and ends.
-#[derive(Clone, Copy, Debug)]
-pub struct Case {
-    pub ends: [AnyConfiguration; 2],
-    /// The problem of a scenario that it is.
-    pub problem: Option<KnownProblem>,
-}
-
-impl Case {
-    /// A path's length as a share of the shortest one that the scenario says; `None` where it says none, or 0.
-    pub fn of_optimal(&self, length: f64) -> Option<f64> {
-        let optimal = self.problem?.optimal;
-        (optimal > 0.0).then(|| length / optimal)
-    }
-}
-
 /// The task with its cases, at least one.
 pub struct Cases {
     /// The robot in its world, with the ends of the first case.
     pub task: Task,
-    pub all: Vec<Case>,
+    pub all: Vec<PlanCase>,
 }
 
 impl Cases {
@@ -54,7 +29,7 @@ impl Cases {
             (Some(file), _) => Cases::of_scenario(&args.robot, world, file, args.tube),
             (None, Some(to)) => {
                 let task = task::find(&args.robot, world, args.from.as_ref(), to, args.tube)?;
-                let all = vec![Case { ends: [task.start, task.goal], problem: None }];
+                let all = vec![PlanCase { ends: [task.start, task.goal], problem: None }];
                 Ok(Cases { task, all })
             }
             (None, None) => Err(Failure::usage("no goal", "Give --to, or with --compare a scenario by --problems.")),
@@ -89,7 +64,7 @@ impl Cases {
             let (_, goal) = at(&scenario, problem.goal).map_err(usage)?;
             robot.get_or_insert(found);
             let problem = KnownProblem { number, bucket: problem.bucket, optimal: problem.length * scale };
-            all.push(Case { ends: [start, goal], problem: Some(problem) });
+            all.push(PlanCase { ends: [start, goal], problem: Some(problem) });
         }
         let (Some(robot), Some(first)) = (robot, all.first()) else {
             return Err(Failure::input(format!("{}: it has no problem", file.display()), next));

@@ -1,20 +1,14 @@
-//! Several planners on one problem, at several seeds.
+//! Several planners on one problem, or on those of a scenario, at several seeds.
 
-use std::fmt::Write as _;
-use std::time::Instant;
+use std::path::Path;
 
-use motion_lab::capture::{proven, unit};
-use motion_lab::configuration::{AnyConfiguration, Configuration as _};
-use motion_lab::export::{JsonNumber, csv_cell};
-use motion_lab::planning::{Effort, NoPath};
-use motion_lab::plans::{PathLengths, PlannerName, Task};
-use motion_lab::random::Seed;
-use serde::Serialize;
+use motion_lab_core::planning::NoPath;
+use motion_lab_sim::capture::{proven, unit};
+use motion_lab_sim::plans::{PlannerName, Task};
 
 use super::answer::PlanAnswer;
 use super::args::PlanArgs;
-use super::cases::{Case, KnownProblem};
-use super::rounds::solve;
+use crate::batch::{ComparedAttempt, PlanCase, PlannerComparison, PlannerMedians};
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::interrupt;
 use crate::cli::support::output::write_file;
@@ -28,136 +22,66 @@ const SEEDS: SeedRange = SeedRange { first: 0, end: 100 };
 /// The seeds for each of a scenario's problems without `--seeds`.
 const SEEDS_OF_PROBLEMS: SeedRange = SeedRange { first: 0, end: 1 };
 
-/// What came of one planner at one seed.
-struct Row {
-    case: Case,
-    planner: PlannerName,
-    seed: u64,
-    effort: Effort,
-    seconds: f64,
-    /// Length and clearance of the path, or why there is none.
-    path: Result<PathLengths, String>,
-}
-
-/// What came of one planner at all seeds: medians over the attempts that have a path.
-#[derive(Debug, Serialize)]
-struct PlannerMedians {
-    planner: String,
-    solved: usize,
-    attempts: usize,
-    milliseconds: Option<f64>,
-    edges: Option<f64>,
-    length: Option<JsonNumber>,
-    clearance: Option<JsonNumber>,
-    /// The length as a share of the shortest one that the scenario says.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    of_optimal: Option<f64>,
-}
-
 /// Compares planners: prints a table, and writes a row for each attempt where that is asked for.
-pub fn compare(args: &PlanArgs, mut task: Task, cases: &[Case], data: &mut Data) -> Result<Outcome, Failure> {
+pub fn compare(args: &PlanArgs, task: Task, cases: Vec<PlanCase>, data: &mut Data) -> Result<Outcome, Failure> {
     let is_of_problems = args.problems.is_some();
     let seeds = args.seeds.unwrap_or(if is_of_problems { SEEDS_OF_PROBLEMS } else { SEEDS });
-    let target = args.csv.as_deref().map(Target::of).transpose()?;
+    let table = args.csv.as_deref().map(Target::of).transpose()?;
+    let costs = args.costs.as_deref().map(Target::of).transpose()?;
     // each once, whatever the command line repeats
     let is_first = |(i, planner): &(usize, &PlannerName)| !args.compare[..*i].contains(planner);
     let planners: Vec<_> = args.compare.iter().enumerate().filter(is_first).map(|(_, planner)| *planner).collect();
-    let count = (seeds.end - seeds.first).saturating_mul(planners.len() as u64).saturating_mul(cases.len() as u64);
-    let progress = CommandProgress::of(count, "attempts");
+    planners.iter().try_for_each(|planner| super::task::fits(*planner, &task.robot))?;
+    let comparison =
+        PlannerComparison { task, cases, planners, seeds: seeds.first..seeds.end, iterations: args.iterations };
+    let progress = CommandProgress::of(comparison.count(), "attempts");
     interrupt::listen();
-    let (mut rows, mut is_stopped) = (Vec::new(), false);
-    let of_planner = |planner| cases.iter().map(move |case| (planner, case));
-    'all: for (planner, case) in planners.iter().copied().flat_map(of_planner) {
-        [task.start, task.goal] = case.ends;
-        for seed in seeds.first..seeds.end {
-            is_stopped = interrupt::asked_to_stop();
-            if is_stopped {
-                break 'all;
-            }
-            match row(args, &task, case, (planner, seed))? {
-                Ok(Some(row)) => rows.push(row),
-                Ok(None) => {
-                    is_stopped = true;
-                    break 'all;
-                }
-                // an end in contact is so for every planner and every seed
-                Err(reason) => {
-                    drop(progress);
-                    if args.json {
-                        data.json(&PlanAnswer::of_none(&task, planner, seed, &reason))?;
-                        return Ok(Outcome::NoPath);
-                    }
-                    say(format!("{}\n{}", super::advice::in_words(&reason.to_string()), super::advice::next(&reason)));
-                    return Ok(Outcome::NoPath);
-                }
-            }
-            progress.at(rows.len() as u64);
-        }
-    }
+    let made = comparison.run(|done| {
+        progress.at(done);
+        !interrupt::asked_to_stop()
+    });
     drop(progress);
-    let lines: Vec<PlannerMedians> = planners.iter().map(|planner| line(*planner, &rows)).collect();
+    let attempts = match made {
+        Ok(attempts) => attempts,
+        Err(reason) => return none(args, &comparison, &reason, data),
+    };
+    let lines = comparison.medians(&attempts);
     if args.json {
         data.json(&lines)?;
     } else {
-        print(&lines, unit(&task.robot), is_of_problems, data)?;
+        print(&lines, unit(&comparison.task.robot), is_of_problems, data)?;
     }
-    if let Some(target) = target {
-        write_file(&target, csv(&task, &rows, is_of_problems).as_bytes())?;
+    if let Some(target) = table {
+        write_file(&target, &rows(&comparison, &attempts, target.path())?)?;
         target.finish(data)?;
     }
-    if is_stopped {
-        say(format!("stopped after {} of {count} attempts, which are kept", rows.len()));
+    if let Some(target) = costs {
+        write_file(&target, comparison.costs_csv(&attempts).as_bytes())?;
+        target.finish(data)?;
+    }
+    if (attempts.len() as u64) < comparison.count() {
+        say(format!("stopped after {} of {} attempts, which are kept", attempts.len(), comparison.count()));
         return Ok(Outcome::Stopped);
     }
     Ok(if lines.iter().all(|line| line.solved == 0) { Outcome::NoPath } else { Outcome::Done })
 }
 
-/// A row, or why there is no problem. `None` where somebody asked to stop.
-fn row(
-    args: &PlanArgs,
-    task: &Task,
-    case: &Case,
-    (planner, seed): (PlannerName, u64),
-) -> Result<Result<Option<Row>, NoPath>, Failure> {
-    let case = *case;
-    let begun = Instant::now();
-    let mut attempt = match super::task::attempt(task, planner, Seed(seed))? {
-        Ok(attempt) => attempt,
-        Err(reason @ NoPath::Problem(_)) if case.problem.is_none() => return Ok(Err(reason)),
-        Err(reason) => {
-            let (effort, path) = (Effort::default(), Err(reason.to_string()));
-            return Ok(Ok(Some(Row { case, planner, seed, effort, seconds: 0.0, path })));
-        }
-    };
-    let Some(solved) = solve(attempt.as_mut(), planner, args.iterations, |_| {}) else { return Ok(Ok(None)) };
-    let seconds = begun.elapsed().as_secs_f64();
-    let path = solved.map(|()| attempt.lengths()).map_err(|reason| reason.to_string());
-    Ok(Ok(Some(Row { case, planner, seed, effort: attempt.effort(), seconds, path })))
-}
-
-/// The middle of some numbers; the mean of the two middle ones of an even count. `None` without any.
-fn median(mut numbers: Vec<f64>) -> Option<f64> {
-    numbers.sort_by(f64::total_cmp);
-    let n = numbers.len();
-    (n > 0).then(|| 0.5 * (numbers[(n - 1) / 2] + numbers[n / 2]))
-}
-
-fn line(planner: PlannerName, rows: &[Row]) -> PlannerMedians {
-    let own: Vec<&Row> = rows.iter().filter(|row| row.planner == planner).collect();
-    let solved: Vec<(&Row, PathLengths)> =
-        own.iter().filter_map(|row| Some((*row, *row.path.as_ref().ok()?))).collect();
-    let of =
-        |number: fn(&Row, PathLengths) -> f64| median(solved.iter().map(|(row, path)| number(row, *path)).collect());
-    PlannerMedians {
-        planner: planner.id().to_owned(),
-        solved: solved.len(),
-        attempts: own.len(),
-        milliseconds: of(|row, _| 1000.0 * row.seconds),
-        edges: of(|row, _| row.effort.edges as f64),
-        length: of(|_, path| path.length).map(JsonNumber),
-        clearance: of(|_, path| path.clearance).map(JsonNumber),
-        of_optimal: median(solved.iter().filter_map(|(row, path)| row.case.of_optimal(path.length)).collect()),
+/// Says that the problem is none: an end in contact is so for every planner and every seed.
+fn none(args: &PlanArgs, comparison: &PlannerComparison, reason: &NoPath, data: &mut Data) -> Result<Outcome, Failure> {
+    if !args.json {
+        say(format!("{}\n{}", super::advice::in_words(&reason.to_string()), super::advice::next(reason)));
+    } else if let Some(planner) = comparison.planners.first() {
+        data.json(&PlanAnswer::of_none(&comparison.task, *planner, comparison.seeds.start, reason))?;
     }
+    Ok(Outcome::NoPath)
+}
+
+/// The table of the attempts: as Parquet where the file's name ends so, else as CSV.
+fn rows(comparison: &PlannerComparison, attempts: &[ComparedAttempt], path: &Path) -> Result<Vec<u8>, Failure> {
+    if path.extension().is_some_and(|extension| extension == "parquet") {
+        return comparison.parquet(attempts, Vec::new()).map_err(Failure::internal);
+    }
+    Ok(comparison.csv(attempts).into_bytes())
 }
 
 fn print(lines: &[PlannerMedians], unit: &str, is_of_problems: bool, data: &mut Data) -> Result<(), Failure> {
@@ -186,32 +110,4 @@ fn print(lines: &[PlannerMedians], unit: &str, is_of_problems: bool, data: &mut 
         ))?;
     }
     data.line("medians over the attempts that have a path")
-}
-
-/// A row for each attempt; a path's columns are empty where there is none. A scenario's problems have three more.
-fn csv(task: &Task, rows: &[Row], is_of_problems: bool) -> String {
-    let head = "planner,seed,solved,time_s,iterations,samples,edges,free";
-    let mut text = format!("{head},length_{},clearance_m,reason,robot,world,start,goal", unit(&task.robot));
-    text.push_str(if is_of_problems { ",problem,bucket,optimal_m\n" } else { "\n" });
-    let numbers = |q: &AnyConfiguration| {
-        let numbers: Vec<String> = q.coordinates().iter().map(f64::to_string).collect();
-        format!("\"{}\"", numbers.join(","))
-    };
-    let (robot, world) = (csv_cell(&task.name), csv_cell(&task.world.name));
-    for Row { case, planner, seed, effort, seconds, path } in rows {
-        let [start, goal] = &case.ends;
-        let mut problem = format!("{robot},{world},{},{}", numbers(start), numbers(goal));
-        if let Some(KnownProblem { number, bucket, optimal }) = case.problem {
-            _ = write!(problem, ",{number},{bucket},{optimal}");
-        }
-        let Effort { iterations, samples, edges, free } = effort;
-        let name = planner.id();
-        let (solved, length, clearance, reason) = match path {
-            Ok(PathLengths { length, clearance }) => (true, length.to_string(), clearance.to_string(), String::new()),
-            Err(reason) => (false, String::new(), String::new(), csv_cell(reason)),
-        };
-        let counts = format!("{iterations},{samples},{edges},{free}");
-        _ = writeln!(text, "{name},{seed},{solved},{seconds},{counts},{length},{clearance},{reason},{problem}");
-    }
-    text
 }

@@ -1,9 +1,9 @@
 //! The picture of a path and of what its planner has grown.
 
-use motion_lab::capture::{Captured, PlanOutcome, PlanSheet, plan};
-use motion_lab::cspace::CellMap;
-use motion_lab::plans::{PlanAttempt, PlannerName, Task};
-use motion_lab::random::Seed;
+use crate::capture::{Captured, PlanOutcome, PlanSheet, plan};
+use motion_lab_core::cspace::CellMap;
+use motion_lab_core::random::Seed;
+use motion_lab_sim::plans::{PlanAttempt, PlannerName, Task};
 
 /// The figure of an attempt, of which `without` is said where it has no path, with the configuration space beside the
 /// workspace where `cells` has it.

@@ -2,10 +2,10 @@
 
 use std::fmt::{Display, Formatter};
 
-use motion_lab::capture::proven;
-use motion_lab::collision::Scene;
-use motion_lab::export::JsonNumber;
-use motion_lab::planning::PathError;
+use crate::capture::proven;
+use motion_lab_core::collision::Scene;
+use motion_lab_core::planning::PathError;
+use motion_lab_sim::export::JsonNumber;
 use serde::Serialize;
 
 use crate::cli::commands::query::{EdgeAnswer, edge};

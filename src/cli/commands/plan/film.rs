@@ -1,11 +1,11 @@
 //! The film of a planner's growth: workspace and configuration space side by side, iteration after iteration.
 
-use motion_lab::capture::{Paper, PlanOutcome, slides};
-use motion_lab::collision::Checker;
-use motion_lab::cspace::{CellMap, Slice};
-use motion_lab::planning::Progress as Grown;
-use motion_lab::plans::{PlannerName, Task};
-use motion_lab::random::Seed;
+use crate::capture::{Paper, PlanOutcome, slides};
+use motion_lab_core::collision::Checker;
+use motion_lab_core::cspace::{CellMap, Slice};
+use motion_lab_core::planning::Progress as Grown;
+use motion_lab_core::random::Seed;
+use motion_lab_sim::plans::{PlannerName, Task};
 
 use super::drawing::captured;
 use super::task::attempt as attempt_by;

@@ -18,10 +18,10 @@ pub mod task;
 
 use std::time::Instant;
 
-use motion_lab::capture::{CaptureForm, PlanOutcome};
-use motion_lab::planning::NoPath;
-use motion_lab::plans::{MAX_CLEARANCE, PathFile, PlanAttempt, PlannerName, Task};
-use motion_lab::random::Seed;
+use crate::capture::{CaptureForm, PlanOutcome};
+use motion_lab_core::planning::NoPath;
+use motion_lab_core::random::Seed;
+use motion_lab_sim::plans::{MAX_CLEARANCE, PathFile, PlanAttempt, PlannerName, Task};
 
 use crate::cli::support::console::note;
 use crate::cli::support::output::write_file;
@@ -64,7 +64,7 @@ impl PlanArgs {
             return Err(Failure::usage(reason, "Leave out --checker, or --script and --record."));
         }
         if !self.compare.is_empty() {
-            return compare::compare(&self, task, &all, data);
+            return compare::compare(&self, task, all, data);
         }
         let name = self.planner_for(&task)?;
         let targets = PlanTargets::of(&self)?;

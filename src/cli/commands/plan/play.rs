@@ -1,12 +1,12 @@
 //! Playing a path: its script, and the log of the run that it drives.
 
-use motion_lab::export::JsonNumber;
-use motion_lab::plans::{PlanAttempt, Task};
-use motion_lab::random::Seed;
-use motion_lab::run::{LogKind, Recipe};
-use motion_lab::simulation::{PlayError, PlayedPath};
-use motion_lab::tour::TourConfig;
-use motion_lab::worlds::World;
+use motion_lab_core::random::Seed;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::export::JsonNumber;
+use motion_lab_sim::plans::{PlanAttempt, Task};
+use motion_lab_sim::run::{LogKind, Recipe};
+use motion_lab_sim::simulation::{PlayError, PlayedPath};
+use motion_lab_sim::tour::TourConfig;
 
 use super::answer::PlanAnswer;
 use crate::cli::commands::record::{Ended, StopRule, write_run};

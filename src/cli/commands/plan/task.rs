@@ -1,14 +1,13 @@
-//! The task that the command line names, and planners by their names.
+//! The task that the command line names.
 
-use clap::builder::TypedValueParser;
-use motion_lab::planning::NoPath;
-use motion_lab::plans::{PlanAttempt, PlannerName, Task};
-use motion_lab::random::Seed;
-use motion_lab::robots::AnyRobot;
+use motion_lab_core::planning::NoPath;
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::AnyRobot;
+use motion_lab_sim::plans::{PlanAttempt, PlannerName, Task};
 
 use crate::cli::Failure;
 use crate::cli::commands::query::Chosen;
-use crate::cli::support::choices::{NumberList, one_of};
+use crate::cli::support::choices::NumberList;
 
 /// The task of these arguments.
 pub fn find(
@@ -34,16 +33,17 @@ pub fn find(
 
 /// The planner of this name with the problem, ready to begin; or why there is no problem.
 pub fn attempt(task: &Task, name: PlannerName, seed: Seed) -> Result<Result<Box<dyn PlanAttempt>, NoPath>, Failure> {
-    let is_car = matches!(task.robot, AnyRobot::Hitch(_));
-    let is_cars = name == PlannerName::HybridAStar;
-    if let (true, Err(reason)) = (is_car != is_cars, name.suits(&task.robot)) {
-        let instead = PlannerName::default_for(&task.robot).id();
-        return Err(Failure::usage(format!("{}: {reason}", name.id()), format!("Use --planner {instead}.")));
-    }
+    fits(name, &task.robot)?;
     Ok(task.attempt(name, seed))
 }
 
-/// Reads the name of a planner.
-pub fn planner_name() -> impl TypedValueParser<Value = PlannerName> {
-    one_of(PlannerName::ALL.map(|name| (name.id(), name, name.words())))
+/// Refuses a planner of straight lines for a car, and one of cars for another robot.
+pub fn fits(name: PlannerName, robot: &AnyRobot) -> Result<(), Failure> {
+    let is_car = matches!(robot, AnyRobot::Hitch(_));
+    let is_cars = name == PlannerName::HybridAStar;
+    if let (true, Err(reason)) = (is_car != is_cars, name.suits(robot)) {
+        let instead = PlannerName::default_for(robot).id();
+        return Err(Failure::usage(format!("{}: {reason}", name.id()), format!("Use --planner {instead}.")));
+    }
+    Ok(())
 }

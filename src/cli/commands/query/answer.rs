@@ -1,12 +1,12 @@
 //! Answers as JSON.
 
-use motion_lab::collision::{Checker, EdgeVerdict, HitBy, ObstacleId, ParryScene, Scene, Witness};
-use motion_lab::configuration::AnyConfiguration;
-use motion_lab::export::JsonNumber;
-use motion_lab::geometry::{Point2, Pose2, Vector2};
-use motion_lab::plans::CheckerName;
-use motion_lab::robots::{AnyRobot, Robot};
-use motion_lab::sensors::RangeSensor;
+use motion_lab_core::collision::{Checker, EdgeVerdict, HitBy, ObstacleId, ParryScene, Scene, Witness};
+use motion_lab_core::configuration::AnyConfiguration;
+use motion_lab_core::geometry::{Point2, Pose2, Vector2};
+use motion_lab_core::robots::{AnyRobot, Robot};
+use motion_lab_core::sensors::RangeSensor;
+use motion_lab_sim::export::JsonNumber;
+use motion_lab_sim::plans::CheckerName;
 use serde::Serialize;
 
 use super::line::check_place;

@@ -1,9 +1,9 @@
 //! `EdgeCertificate`, the proof of an edge as JSON.
 
-use motion_lab::collision::{Certificate, Checker};
-use motion_lab::configuration::{AnyConfiguration, Configuration};
-use motion_lab::export::JsonNumber;
-use motion_lab::robots::{AnyRobot, ConfigurationError, Motion, Robot};
+use motion_lab_core::collision::{Certificate, Checker};
+use motion_lab_core::configuration::{AnyConfiguration, Configuration};
+use motion_lab_core::robots::{AnyRobot, ConfigurationError, Motion, Robot};
+use motion_lab_sim::export::JsonNumber;
 use serde::Serialize;
 
 use super::answer::{EdgeAnswer, edge};

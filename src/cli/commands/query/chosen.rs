@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use motion_lab::collision::{Checker, Scene};
-use motion_lab::configuration::{AnyConfiguration, RobotKind};
-use motion_lab::names::did_you_mean;
-use motion_lab::robots::{AnyRobot, Reach};
-use motion_lab::worlds::{Resident, World};
+use motion_lab_core::collision::{Checker, Scene};
+use motion_lab_core::configuration::{AnyConfiguration, RobotKind};
+use motion_lab_core::names::did_you_mean;
+use motion_lab_core::robots::{AnyRobot, Reach};
+use motion_lab_core::worlds::{Resident, World};
 
 use super::line::{QuerySubject, check_place, finite};
 use crate::cli::Failure;

@@ -1,7 +1,7 @@
 //! `Dimensions`, a robot's kind and measures as JSON.
 
-use motion_lab::export::JsonNumber;
-use motion_lab::robots::{AnyRobot, Hitch, Reach};
+use motion_lab_core::robots::{AnyRobot, Hitch, Reach};
+use motion_lab_sim::export::JsonNumber;
 use serde::Serialize;
 
 use super::answer::point;

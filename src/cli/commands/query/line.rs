@@ -1,7 +1,7 @@
 //! A line of input: a configuration, or a motion between two.
 
-use motion_lab::geometry::MAX_COORDINATE;
-use motion_lab::json_words::in_words;
+use crate::json_words::in_words;
+use motion_lab_core::geometry::MAX_COORDINATE;
 use serde::Deserialize;
 
 /// The subject of a question: a configuration, or a motion from it.

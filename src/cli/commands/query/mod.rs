@@ -16,9 +16,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::Args;
-use motion_lab::collision::{ParryScene, Scene};
-use motion_lab::plans::CheckerName;
-use motion_lab::sensors::RangeSensor;
+use motion_lab_core::collision::{ParryScene, Scene};
+use motion_lab_core::sensors::RangeSensor;
+use motion_lab_sim::plans::CheckerName;
 use serde::Serialize;
 
 pub use answer::{EdgeAnswer, edge};

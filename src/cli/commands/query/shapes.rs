@@ -1,8 +1,8 @@
 //! `ObstacleShapes`, the shapes of a world's obstacles as JSON, for programs that check a proof.
 
-use motion_lab::collision::{ObstacleId, Scene};
-use motion_lab::export::JsonNumber;
-use motion_lab::geometry::Placed;
+use motion_lab_core::collision::{ObstacleId, Scene};
+use motion_lab_core::geometry::Placed;
+use motion_lab_sim::export::JsonNumber;
 use serde::Serialize;
 
 use super::answer::{name, point};

@@ -4,7 +4,7 @@ use super::choice::StartChoice;
 use super::seeds::SeedRange;
 use crate::cli::support::choices::{RobotNames, WorldNames, log_kind};
 use clap::Args;
-use motion_lab::run::LogKind;
+use motion_lab_sim::run::LogKind;
 use std::path::PathBuf;
 
 /// Record a run, and print where its robots end, their contacts and its digest.

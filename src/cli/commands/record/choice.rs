@@ -2,9 +2,9 @@
 
 use std::str::FromStr;
 
-use motion_lab::configuration::WrittenCoordinate;
-use motion_lab::names::did_you_mean;
-use motion_lab::worlds::{Resident, World};
+use motion_lab_core::configuration::WrittenCoordinate;
+use motion_lab_core::names::did_you_mean;
+use motion_lab_core::worlds::{Resident, World};
 
 use crate::cli::Failure;
 use crate::cli::support::choices::{lengths_of, values};

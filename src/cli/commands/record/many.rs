@@ -12,8 +12,8 @@ use crate::cli::support::summary::RunSummary;
 use crate::cli::support::target::Target;
 use crate::cli::support::words::counted;
 use crate::cli::{Data, Failure, Outcome, say};
-use motion_lab::random::Seed;
-use motion_lab::run::Recipe;
+use motion_lab_core::random::Seed;
+use motion_lab_sim::run::Recipe;
 
 /// Number of runs per thread in a batch. The lines of a batch are printed when all its runs have ended.
 const AHEAD: u64 = 4;

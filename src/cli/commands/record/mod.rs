@@ -13,8 +13,8 @@ mod written;
 
 pub use args::RecordArgs;
 
-use motion_lab::run::{LogKind, Recipe};
-use motion_lab::tour::TourConfig;
+use motion_lab_sim::run::{LogKind, Recipe};
+use motion_lab_sim::tour::TourConfig;
 
 use crate::cli::support::console::note;
 use crate::cli::support::interrupt;

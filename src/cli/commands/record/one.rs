@@ -3,8 +3,8 @@
 use std::io;
 use std::path::Path;
 
-use motion_lab::run::{Comparison, DT, Digest, Frame, Log, LogError, LogKind, LogWriter, Recipe, RunDigest};
-use motion_lab::simulation::Refusals;
+use motion_lab_sim::run::{Comparison, DT, Digest, Frame, Log, LogError, LogKind, LogWriter, Recipe, RunDigest};
+use motion_lab_sim::simulation::Refusals;
 
 use crate::cli::support::interrupt;
 use crate::cli::support::output::ReportedFile;

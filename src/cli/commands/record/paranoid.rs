@@ -1,7 +1,7 @@
 //! `--paranoid`: each tick twice, before anything is recorded.
 
-use motion_lab::recording::ParanoidRun;
-use motion_lab::run::Recipe;
+use motion_lab_sim::recording::ParanoidRun;
+use motion_lab_sim::run::Recipe;
 
 use crate::cli::support::interrupt;
 use crate::cli::support::progress::CommandProgress;

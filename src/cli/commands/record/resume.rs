@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use motion_lab::output::{is_left, is_temporary, unfinished, whole_name};
-use motion_lab::run::{Log, LogError};
+use crate::output::{is_left, is_temporary, unfinished, whole_name};
+use motion_lab_sim::run::{Log, LogError};
 
 use super::one::{Printed, StopRule, record};
 use crate::cli::support::input::read_bytes_if;

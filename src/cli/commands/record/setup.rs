@@ -1,9 +1,9 @@
 //! From options to a run's seed, configuration and script.
 
-use motion_lab::random::Seed;
-use motion_lab::run::{DT, Script};
-use motion_lab::sensors::RangeSensor;
-use motion_lab::tour::{BOOK_SEED, TourConfig};
+use motion_lab_core::random::Seed;
+use motion_lab_core::sensors::RangeSensor;
+use motion_lab_sim::run::{DT, Script};
+use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 use super::args::RecordArgs;
 use super::choice::choose;

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
-use motion_lab::run::Script;
-use motion_lab::tour::TourConfig;
+use motion_lab_sim::run::Script;
+use motion_lab_sim::tour::TourConfig;
 use serde::Serialize;
 
 use crate::cli::support::choices::WorldNames;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use motion_lab::configuration::{RobotKind, WrittenCoordinate};
-use motion_lab::one_line::OneLine;
-use motion_lab::run::{Event, Quantized, RobotInput, Script, ScriptProblem};
-use motion_lab::tour::TourConfig;
+use motion_lab_core::configuration::{RobotKind, WrittenCoordinate};
+use motion_lab_core::one_line::OneLine;
+use motion_lab_sim::run::{Event, Quantized, RobotInput, Script, ScriptProblem};
+use motion_lab_sim::tour::TourConfig;
 
 /// What is wrong with a table, and where. Prints as `7:12: "fast" is no whole number`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]

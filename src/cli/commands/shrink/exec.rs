@@ -4,9 +4,9 @@ use std::fs::{self, File};
 use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use motion_lab::output::PassingFolder;
-use motion_lab::recording::Run;
-use motion_lab::run::{LogKind, Recipe};
+use crate::output::PassingFolder;
+use motion_lab_sim::recording::Run;
+use motion_lab_sim::run::{LogKind, Recipe};
 
 use super::written::quoted;
 use crate::cli::Failure;

@@ -8,8 +8,8 @@ mod written;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use motion_lab::run::{Log, LogKind, Recipe};
-use motion_lab::shrink::{ShrinkEnd, ShrinkOptions, shrink};
+use motion_lab_sim::run::{Log, LogKind, Recipe};
+use motion_lab_sim::shrink::{ShrinkEnd, ShrinkOptions, shrink};
 
 use crate::cli::support::choices::{Site, log_kind};
 use crate::cli::support::input::is_dash;
@@ -162,7 +162,7 @@ impl ShrinkArgs {
 
 /// The log of a shrunk run. It is made even after Ctrl-C.
 fn recorded(recipe: &Recipe, kind: LogKind) -> Result<Log, Failure> {
-    motion_lab::recording::Run::record_recipe(recipe.clone(), kind, |_| {}).map_err(Failure::internal)
+    motion_lab_sim::recording::Run::record_recipe(recipe.clone(), kind, |_| {}).map_err(Failure::internal)
 }
 
 /// The log of the shrunk run where nobody names one.

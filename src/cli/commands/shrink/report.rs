@@ -1,9 +1,9 @@
 //! What is left of a run.
 
-use motion_lab::export::JsonNumber;
-use motion_lab::run::{Log, Recorded, seconds};
-use motion_lab::shrink::{RecipeSize, Shrunk};
-use motion_lab::web::Link;
+use crate::web::Link;
+use motion_lab_sim::export::JsonNumber;
+use motion_lab_sim::run::{Log, Recorded, seconds};
+use motion_lab_sim::shrink::{RecipeSize, Shrunk};
 use serde::Serialize;
 
 use crate::cli::support::console::note;

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
-use motion_lab::run::Recipe;
-use motion_lab::shrink::Condition;
+use motion_lab_sim::run::Recipe;
+use motion_lab_sim::shrink::Condition;
 
 use super::exec::ExitCheck;
 use crate::cli::Failure;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use motion_lab::shrink::{Condition, ConditionError};
+use motion_lab_sim::shrink::{Condition, ConditionError};
 
 /// A condition as it was written.
 #[derive(Clone, Debug)]

@@ -3,8 +3,8 @@
 use std::fs;
 use std::time::Instant;
 
-use motion_lab::batch::{Shard, Study};
-use motion_lab::output::PassingFolder;
+use crate::batch::{Shard, Study};
+use crate::output::PassingFolder;
 
 use super::keep::Keep;
 use super::one;

@@ -5,7 +5,7 @@ use std::io::{self, BufRead, BufReader, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use motion_lab::batch::{Column, PartHead, PartWriter, sealed_line, unsealed_line};
+use crate::batch::{Column, PartHead, PartWriter, sealed_line, unsealed_line};
 
 use crate::cli::Failure;
 use crate::cli::support::output::ReportedFile;
@@ -146,8 +146,8 @@ impl Journal {
 
 #[cfg(test)]
 mod tests {
-    use motion_lab::batch::{Study, StudyFile};
-    use motion_lab::worlds::World;
+    use crate::batch::{Study, StudyFile};
+    use motion_lab_core::worlds::World;
 
     use super::*;
 

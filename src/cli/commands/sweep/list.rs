@@ -1,7 +1,7 @@
 //! What a study would run, a line for each run.
 
-use motion_lab::batch::{RunRow, Shard, Study};
-use motion_lab::export::csv_cell;
+use crate::batch::{RunRow, Shard, Study};
+use motion_lab_sim::export::csv_cell;
 
 use crate::cli::support::console::note;
 use crate::cli::support::words::counted;

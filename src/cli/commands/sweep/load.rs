@@ -3,12 +3,12 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use motion_lab::batch::{Study, StudyError, StudyFile};
+use crate::batch::{Study, StudyError, StudyFile};
 
-use super::planned::named;
 use crate::cli::Failure;
 use crate::cli::support::console::note;
 use crate::cli::support::input::{read_text, shown};
+use crate::cli::support::planners::planners;
 use crate::cli::support::words::parse_script;
 use crate::cli::support::world_source::{find_world_beside, read_scenario};
 
@@ -30,9 +30,8 @@ pub fn study(path: &Path) -> Result<Study, Failure> {
         scripts.insert(name.to_owned(), script.map_err(|failure| named_at(name, failure))?);
     }
     for name in file.planner_names() {
-        let unknown =
-            |reason| Failure::input(reason, "Correct it there. `motion-lab plan --help` says what each does.");
-        named(name).map_err(|reason| named_at(name, unknown(reason)))?;
+        let next = "Correct it there. `motion-lab plan --help` says what each does.";
+        planners().named(name).map_err(|unknown| named_at(name, Failure::input(unknown, next)))?;
     }
     let mut scenarios = BTreeMap::new();
     for name in file.scenario_names() {

@@ -5,8 +5,8 @@ use std::io::{BufReader, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::batch::{PartError, PartReader, RowValue, RunRow, Study, TableError, TableWriter};
 use clap::{Args, ValueEnum};
-use motion_lab::batch::{PartError, PartReader, RowValue, RunRow, Study, TableError, TableWriter};
 
 use crate::cli::support::input::{is_dash, open, unreadable};
 use crate::cli::support::output::ReportedFile;

@@ -3,8 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use motion_lab::batch::{RowGatherer, RunRow, Study};
-use motion_lab::run::{Frame, LogKind};
+use crate::batch::{RowGatherer, RunRow, Study};
+use motion_lab_sim::run::{Frame, LogKind};
 
 use super::keep::Keep;
 use super::planned::{PlannedInputs, made};

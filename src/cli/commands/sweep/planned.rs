@@ -1,17 +1,17 @@
 //! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
 
-use motion_lab::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunSetup};
-use motion_lab::configuration::RobotKind;
-use motion_lab::names::{hint, nearest};
-use motion_lab::planning::{Effort, NoPath};
-use motion_lab::plans::{PathLengths, PlannerName, Task};
-use motion_lab::random::Seed;
-use motion_lab::robots::AnyRobot;
-use motion_lab::run::{Recipe, Script, seconds};
-use motion_lab::tour::TourConfig;
-use motion_lab::worlds::World;
+use crate::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunSetup};
+use motion_lab_core::configuration::RobotKind;
+use motion_lab_core::planning::{Effort, NoPath};
+use motion_lab_core::random::Seed;
+use motion_lab_core::robots::AnyRobot;
+use motion_lab_core::worlds::World;
+use motion_lab_sim::plans::{PathLengths, PlannerName, Task};
+use motion_lab_sim::run::{Recipe, Script, seconds};
+use motion_lab_sim::tour::TourConfig;
 
 use crate::cli::commands::plan::solve;
+use crate::cli::support::planners::planners;
 
 /// What became of a run's inputs.
 pub enum PlannedInputs {
@@ -100,18 +100,9 @@ fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), Strin
         return Err("one of start and goal has a trailer's heading, the other has none".into());
     }
     let name = match &planning.planner {
-        Some(name) => named(name)?,
+        Some(name) => planners().named(name).map_err(|unknown| unknown.to_string())?,
         None => PlannerName::default_for(&robot),
     };
     let task = Task::new(resident.name.as_str(), robot, world.clone(), [start, goal]);
     Ok((Task { tube: planning.tube, clearance: planning.clearance, ..task }, name))
-}
-
-/// The planner of this name; else what there is.
-pub fn named(name: &str) -> Result<PlannerName, String> {
-    PlannerName::of(name).ok_or_else(|| {
-        let names = PlannerName::ALL.map(PlannerName::id);
-        let meant = hint(nearest(name, names));
-        format!("there is no planner {name:?}; there are {}{meant}", names.join(", "))
-    })
 }

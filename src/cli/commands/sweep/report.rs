@@ -1,14 +1,14 @@
 //! `sweep report`: what became of a sweep's runs, as one page or one figure.
 
-use motion_lab::picture::Theme;
+use motion_lab_core::picture::Theme;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use crate::batch::{CellKind, Column, RowValue, RunInputs, RunRow, Study, TableError, TableFile};
+use crate::capture::{Captured, Distribution, Paper, histograms};
+use crate::web::Link;
 use clap::{Args, ValueEnum};
-use motion_lab::batch::{CellKind, Column, RowValue, RunInputs, RunRow, Study, TableError, TableFile};
-use motion_lab::capture::{Captured, Distribution, Paper, histograms};
-use motion_lab::run::Recipe;
-use motion_lab::web::Link;
+use motion_lab_sim::run::Recipe;
 
 use crate::cli::support::choices;
 use crate::cli::support::choices::Site;

@@ -3,8 +3,8 @@
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
+use crate::batch::{Column, PartError, PartReader, RowValue, RunRow, Study, TableError, TableFile};
 use clap::Args;
-use motion_lab::batch::{Column, PartError, PartReader, RowValue, RunRow, Study, TableError, TableFile};
 
 use super::merge;
 use super::one::{again, log_name};

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use motion_lab::batch::{PartHead, PartReader, RunRow, Shard, Study};
+use crate::batch::{PartHead, PartReader, RunRow, Shard, Study};
 use rayon::prelude::*;
 
 use super::journal::Journal;

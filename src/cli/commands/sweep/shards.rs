@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use motion_lab::batch::{Shard, ShardError};
+use crate::batch::{Shard, ShardError};
 
 use crate::cli::Failure;
 

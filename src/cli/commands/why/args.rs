@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use motion_lab::avoid::{ContactEpisode, EvasionSet, EvasionSpeeds};
-use motion_lab::run::DT;
+use motion_lab_sim::avoid::{ContactEpisode, EvasionSet, EvasionSpeeds};
+use motion_lab_sim::run::DT;
 
 use crate::cli::Failure;
 use crate::cli::support::choices::RobotNames;

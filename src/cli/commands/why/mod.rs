@@ -4,10 +4,10 @@ mod args;
 mod report;
 mod words;
 
-use motion_lab::avoid::{ContactEpisode, Evasion, EvasionSet, Explaining, Explanation, contact_episodes_with};
-use motion_lab::names::did_you_mean;
-use motion_lab::run::{LogKind, Recipe};
-use motion_lab::tour::TourConfig;
+use motion_lab_core::names::did_you_mean;
+use motion_lab_sim::avoid::{ContactEpisode, Evasion, EvasionSet, Explaining, Explanation, contact_episodes_with};
+use motion_lab_sim::run::{LogKind, Recipe};
+use motion_lab_sim::tour::TourConfig;
 
 pub use args::WhyArgs;
 

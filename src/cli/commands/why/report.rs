@@ -1,7 +1,7 @@
 //! What is known of a contact, as JSON.
 
-use motion_lab::avoid::{Evasion, EvasionMeans, Explanation, LastChance, NoEvasion, SearchExtent};
-use motion_lab::export::JsonNumber;
+use motion_lab_sim::avoid::{Evasion, EvasionMeans, Explanation, LastChance, NoEvasion, SearchExtent};
+use motion_lab_sim::export::JsonNumber;
 use serde::Serialize;
 
 /// A contact.

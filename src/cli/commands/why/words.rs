@@ -1,7 +1,7 @@
 //! What is known of a contact, in words.
 
-use motion_lab::avoid::{ContactPartner, Evasion, EvasionMeans, EvasionSet, Explanation, LastChance, NoEvasion};
-use motion_lab::run::seconds;
+use motion_lab_sim::avoid::{ContactPartner, Evasion, EvasionMeans, EvasionSet, Explanation, LastChance, NoEvasion};
+use motion_lab_sim::run::seconds;
 
 /// The lines of a contact that was explained by this set.
 pub fn lines(why: &Explanation, set: &EvasionSet) -> Vec<String> {

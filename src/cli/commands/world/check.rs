@@ -1,10 +1,10 @@
 //! Checks of worlds whose files are valid: residents that touch something, obstacles outside the bounds.
 
-use motion_lab::collision::{ObstacleId, Scene};
-use motion_lab::configuration::RobotKind;
-use motion_lab::geometry::Footprint;
-use motion_lab::robots::{AnyRobot, Robot};
-use motion_lab::worlds::{Door, Obstacle, ObstacleKind, World};
+use motion_lab_core::collision::{ObstacleId, Scene};
+use motion_lab_core::configuration::RobotKind;
+use motion_lab_core::geometry::Footprint;
+use motion_lab_core::robots::{AnyRobot, Robot};
+use motion_lab_core::worlds::{Door, Obstacle, ObstacleKind, World};
 
 /// The largest number of problems reported for one world.
 const MAX_REPORTED: usize = 10;

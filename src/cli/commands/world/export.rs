@@ -2,10 +2,10 @@
 
 use std::path::PathBuf;
 
+use crate::capture::{CaptureForm, Captured, with_names};
 use clap::{Args, ValueEnum};
-use motion_lab::capture::{CaptureForm, Captured, with_names};
-use motion_lab::picture::{Figure, places, world as draw};
-use motion_lab::worlds::{Grid, World};
+use motion_lab_core::picture::{Figure, places, world as draw};
+use motion_lab_core::worlds::{Grid, World};
 
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::console::note;

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use motion_lab::random::Seed;
-use motion_lab::worlds::Warehouse;
+use motion_lab_core::random::Seed;
+use motion_lab_core::worlds::Warehouse;
 
 use crate::cli::support::input::is_dash;
 use crate::cli::support::output::write_file;

@@ -4,16 +4,16 @@ use crate::cli::support::choices::{NumberList, lengths_of, one_of, values};
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use motion_lab::collision::{Collision, Scene};
-use motion_lab::configuration::WrittenCoordinate;
-use motion_lab::random::Seed;
-use motion_lab::run::Recipe;
-use motion_lab::tour::TourConfig;
-use motion_lab::worlds::World;
-use motion_lab::worlds::import::{
+use motion_lab_core::collision::{Collision, Scene};
+use motion_lab_core::configuration::WrittenCoordinate;
+use motion_lab_core::random::Seed;
+use motion_lab_core::worlds::World;
+use motion_lab_import::{
     CellStyle, ImportError, Imported, IrsimOptions, RosMap, Scenario, SvgOptions, Unknown, irsim, is_ros_map, movingai,
     svg,
 };
+use motion_lab_sim::run::Recipe;
+use motion_lab_sim::tour::TourConfig;
 
 use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, is_dash, read_bytes, read_text_of};
 use crate::cli::support::output::write_file;

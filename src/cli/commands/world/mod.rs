@@ -8,7 +8,7 @@ mod import;
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use motion_lab::worlds::World;
+use motion_lab_core::worlds::World;
 use serde::Serialize;
 
 use crate::cli::support::choices::WorldNames;

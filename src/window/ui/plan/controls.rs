@@ -2,7 +2,8 @@
 
 use bevy_egui::egui::{ComboBox, Ui, WidgetInfo, WidgetType};
 
-use super::state::{PACES, PlanStage, PlanState};
+use super::paces::PACES;
+use super::state::{PlanStage, PlanState};
 use crate::window::ui::FrameColours;
 use crate::window::ui::keys::TimeAction;
 use crate::window::ui::paint::button::LabButton;

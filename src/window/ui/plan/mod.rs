@@ -2,6 +2,7 @@
 
 pub(super) mod controls;
 mod exchange;
+mod paces;
 mod panel;
 mod state;
 #[cfg(test)]

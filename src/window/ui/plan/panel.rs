@@ -152,7 +152,7 @@ fn goal_for(robot: &AnyRobot, world: &World, start: AnyConfiguration) -> AnyConf
 
 fn planner_choice(ui: &mut Ui, plan: &mut PlanState) {
     let robot = plan.task().robot;
-    let suits = PlannerName::ALL.into_iter().filter(|name| name.suits(&robot).is_ok());
+    let suits: Vec<PlannerName> = plan.planners.all().filter(|name| name.suits(&robot).is_ok()).collect();
     let present = plan.planner();
     let list = ComboBox::from_id_salt("planner").width(WIDTH).height(320.0).selected_text(present.title());
     chooser(ui, "planner", list, |ui| {

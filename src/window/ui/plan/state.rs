@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bevy::platform::time::Instant;
 
+use super::paces::{PACES, SHOWS_REJECTED};
 use super::work::PlannerWork;
 use crate::window::ui::cspace::SpaceCells;
 use motion_lab_core::collision::Checker;
@@ -15,7 +16,7 @@ use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::judged_words;
 use motion_lab_sim::manifest::HintTask;
 use motion_lab_sim::plans::{
-    Bug1Walk, Drawn, JudgedPath, PathLengths, PlannerName, Task, space_items, workspace_items,
+    Bug1Walk, Drawn, JudgedPath, PathLengths, PlannerName, Planners, Task, space_items, workspace_items,
 };
 use motion_lab_sim::run::Event;
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
@@ -25,20 +26,6 @@ const FINEST: u32 = 7;
 
 /// Largest part of a frame spent on iterations, seconds.
 const BUDGET: f64 = 0.008;
-
-/// The paces to choose from: iterations a second.
-pub const PACES: [(f64, &str); 7] = [
-    (1.0, "1 a second"),
-    (3.0, "3 a second"),
-    (10.0, "10 a second"),
-    (30.0, "30 a second"),
-    (100.0, "100 a second"),
-    (1000.0, "1,000 a second"),
-    (f64::INFINITY, "as fast as possible"),
-];
-
-/// The fastest pace at which the last rejected motion is shown: what flashes does so at most three times a second.
-const SHOWS_REJECTED: f64 = 3.0;
 
 /// How far the planner has come.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +44,8 @@ pub enum PlanStage {
 pub struct PlanState {
     pub(super) task: Task,
     pub(super) planner: PlannerName,
+    /// The planners to choose from.
+    pub planners: Planners,
     pub(super) seed: Seed,
     pub(super) work: Option<PlannerWork>,
     pub(super) stage: PlanStage,
@@ -105,6 +94,7 @@ impl PlanState {
         let mut state = PlanState {
             known_as: World::built_in_names().into_iter().find(known),
             planner: PlannerName::default_for(&task.robot),
+            planners: Planners::default(),
             seed: BOOK_SEED,
             work: None,
             stage: PlanStage::Growing,
@@ -133,8 +123,9 @@ impl PlanState {
     pub fn take(&mut self, task: Task) {
         let planner = if self.planner.suits(&task.robot).is_ok() { Some(self.planner) } else { None };
         let (seed, pace, over_drive, played) = (self.seed, self.pace, self.over_drive, self.played.take());
+        let planners = std::mem::take(&mut self.planners);
         let task = Task { noise: self.task.noise, ..task };
-        *self = PlanState { seed, pace, over_drive, played, ..Self::of(task) };
+        *self = PlanState { seed, pace, over_drive, played, planners, ..Self::of(task) };
         self.planner = planner.unwrap_or(self.planner);
         self.restart();
     }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::PlanState;
-use super::state::{PACES, PlanStage};
+use super::paces::PACES;
+use super::state::PlanStage;
 use motion_lab_core::collision::Collision;
 use motion_lab_core::configuration::{AnyConfiguration, T2};
 use motion_lab_core::cspace::CellState;

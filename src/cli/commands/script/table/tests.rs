@@ -1,5 +1,5 @@
 use super::*;
-use motion_lab::worlds::World;
+use motion_lab_core::worlds::World;
 
 fn script(text: &str, config: Option<&TourConfig>) -> Result<Script, ScriptTableError> {
     super::script(text, config).map(|(script, _)| script)

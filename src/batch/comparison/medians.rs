@@ -1,0 +1,62 @@
+//! `PlannerMedians`, what came of a planner at all its attempts.
+
+use motion_lab_sim::export::JsonNumber;
+use motion_lab_sim::plans::{PathLengths, PlannerName};
+use serde::Serialize;
+
+use super::{ComparedAttempt, PlannerComparison};
+
+/// What came of one planner: medians over the attempts that have a path, `None` without any.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlannerMedians {
+    /// The planner's [name](PlannerName::id).
+    pub planner: String,
+    /// The number of attempts that have a path.
+    pub solved: usize,
+    /// The number of attempts.
+    pub attempts: usize,
+    /// How long it took.
+    pub milliseconds: Option<f64>,
+    /// The edges that it asked about.
+    pub edges: Option<f64>,
+    /// The length of the path, in the unit of [`PathLengths`].
+    pub length: Option<JsonNumber>,
+    /// The clearance proven along the path, metres.
+    pub clearance: Option<JsonNumber>,
+    /// The length as a share of the shortest one that the scenario says.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub of_optimal: Option<f64>,
+}
+
+/// The middle of some numbers; the mean of the two middle ones of an even count. `None` without any.
+fn median(mut numbers: Vec<f64>) -> Option<f64> {
+    numbers.sort_by(f64::total_cmp);
+    let n = numbers.len();
+    (n > 0).then(|| 0.5 * (numbers[(n - 1) / 2] + numbers[n / 2]))
+}
+
+impl PlannerComparison {
+    /// What came of each planner, in their order.
+    pub fn medians(&self, attempts: &[ComparedAttempt]) -> Vec<PlannerMedians> {
+        self.planners.iter().map(|planner| of_planner(*planner, attempts)).collect()
+    }
+}
+
+fn of_planner(planner: PlannerName, attempts: &[ComparedAttempt]) -> PlannerMedians {
+    let own: Vec<&ComparedAttempt> = attempts.iter().filter(|attempt| attempt.planner == planner).collect();
+    let solved: Vec<(&ComparedAttempt, PathLengths)> =
+        own.iter().filter_map(|attempt| Some((*attempt, *attempt.path.as_ref().ok()?))).collect();
+    let of = |number: fn(&ComparedAttempt, PathLengths) -> f64| {
+        median(solved.iter().map(|(attempt, path)| number(attempt, *path)).collect())
+    };
+    PlannerMedians {
+        planner: planner.id().to_owned(),
+        solved: solved.len(),
+        attempts: own.len(),
+        milliseconds: of(|attempt, _| 1000.0 * attempt.seconds),
+        edges: of(|attempt, _| attempt.effort.edges as f64),
+        length: of(|_, path| path.length).map(JsonNumber),
+        clearance: of(|_, path| path.clearance).map(JsonNumber),
+        of_optimal: median(solved.iter().filter_map(|(a, path)| a.case.of_optimal(path.length)).collect()),
+    }
+}
