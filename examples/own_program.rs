@@ -42,10 +42,11 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Detour<R> {
 }
 
 /// Makes it for any robot that goes along straight lines of its chart.
+#[derive(Default)]
 struct MakeDetour;
 
 impl LinePlanner for MakeDetour {
-    fn for_problem<R: Robot<Configuration: Chart>>(problem: Problem<R>) -> MadePlanner<R> {
+    fn for_problem<R: Robot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
         Ok(Box::new(Detour(Search::from_start(problem))))
     }
 }

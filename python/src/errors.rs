@@ -33,7 +33,8 @@ create_exception!(
     motion_lab,
     NoPath,
     PyRuntimeError,
-    "A planner found no path, and says why; or start or goal can be none of a path."
+    "A planner found no path, and says why; or start or goal can be none of a path. `effort` is what the planner did for \
+     it, None where there was no problem."
 );
 
 /// A `WorldError` with the words of the library, and where in the text it is.
@@ -69,7 +70,7 @@ pub fn configuration_error(py: Python<'_>, name: &str, row: &[usize], reason: &s
 }
 
 /// The error with more attributes, or the one of setting them.
-fn with(py: Python<'_>, error: PyErr, set: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<()>) -> PyErr {
+pub fn with(py: Python<'_>, error: PyErr, set: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<()>) -> PyErr {
     match set(error.value(py).as_any()) {
         Ok(()) => error,
         Err(other) => other,

@@ -17,6 +17,7 @@ mod fleet;
 mod frame;
 mod interrupt;
 mod natural;
+mod own_planner;
 mod path;
 mod picture;
 mod planning;
@@ -28,6 +29,7 @@ mod robot;
 mod run;
 mod scan;
 mod script;
+mod search;
 mod shapes;
 mod table;
 mod verdicts;
@@ -89,6 +91,8 @@ mod _core {
     use crate::recording::record;
     #[pymodule_export]
     use crate::run::{PyRun, read};
+    #[pymodule_export]
+    use crate::search::PySearch;
     #[pymodule_export]
     use crate::verification::{PyDifference, PyVerification};
 

@@ -94,6 +94,16 @@ fn rows<'py>(py: Python<'py>, rows: &[Vec<f64>]) -> PyResult<Bound<'py, PyArray2
     PyArray2::from_vec2(py, rows).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
+/// What a planner has done, by names.
+pub fn effort_dict(py: Python<'_>, effort: Effort) -> PyResult<Bound<'_, PyDict>> {
+    let Effort { iterations, samples, edges, free } = effort;
+    let by_name = PyDict::new(py);
+    for (name, count) in [("iterations", iterations), ("samples", samples), ("edges", edges), ("free", free)] {
+        by_name.set_item(name, count)?;
+    }
+    Ok(by_name)
+}
+
 #[pymethods]
 impl PyPath {
     /// The start and the ends of the legs, shape `(k, d)`: metres and radians, in the robot's coordinates.
@@ -146,12 +156,7 @@ impl PyPath {
     /// What the planner has done: `iterations`, `samples` drawn, `edges` asked about, and how many of them were `free`.
     #[getter]
     fn effort<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Effort { iterations, samples, edges, free } = self.effort;
-        let effort = PyDict::new(py);
-        for (name, count) in [("iterations", iterations), ("samples", samples), ("edges", edges), ("free", free)] {
-            effort.set_item(name, count)?;
-        }
-        Ok(effort)
+        effort_dict(py, self.effort)
     }
 
     /// The proofs: of each leg an array `(m, 3)` of the steps that prove it free. A step goes from one share of the leg

@@ -5,11 +5,12 @@ use std::time::{Duration, Instant};
 
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyString;
 
 use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
 use motion_lab_core::geometry::Pose2;
-use motion_lab_core::planning::{Bounds, NoPath as LabNoPath};
+use motion_lab_core::planning::{Bounds, Effort, NoPath as LabNoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, RUSTY, Robot, Rusty};
 use motion_lab_core::worlds::World;
@@ -18,9 +19,11 @@ use motion_lab_sim::tour::BOOK_SEED;
 
 use crate::arrays::Given;
 use crate::checker::PyChecker;
-use crate::errors::{Error, NoPath, configuration_error};
+use crate::errors::{Error, NoPath, configuration_error, with};
 use crate::natural::natural_or_none;
+use crate::own_planner::PyPlanner;
 use crate::path::PyPath;
+use crate::path::effort_dict;
 use crate::robot::{LabRobot, PyRobot};
 use crate::world::PyWorld;
 
@@ -37,7 +40,10 @@ pub fn planner_names() -> Vec<&'static str> {
 /// leg of the path is proven free, touching nothing, and its proof was checked by code that did not make it. Instead of
 /// a `Checker` it takes a `World` or the name of one, and a `robot`.
 ///
-/// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. `seed`, 2005, is what
+/// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. Or it is a planner of
+/// yours for any robot but a car: an object, or its class, with a `name` and a method `advance(search)`, which is called
+/// for each iteration until it has taken a path; `draws_samples` is True of one that joins samples. What `advance`
+/// raises is raised here. `seed`, 2005, is what
 /// its samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its
 /// path is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its goal.
 ///
@@ -46,7 +52,8 @@ pub fn planner_names() -> Vec<&'static str> {
 /// (20,000 for `hybrid-a-star`); with it `rrt-star` goes on to there and shortens its path. `tube` is how much larger a
 /// disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
 ///
-/// Raises NoPath, which says why there is none; Error for a planner that does not plan for this robot;
+/// Raises NoPath, which says why there is none, with `effort`, what was done for it, as a path has it, None where there
+/// was no problem; Error for a planner that does not plan for this robot;
 /// ConfigurationError for ends that are none of the robot's configurations. Ctrl+C stops it within 0.1 s.
 #[pyfunction]
 #[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None,
@@ -58,7 +65,7 @@ pub fn plan(
     start: &Bound<'_, PyAny>,
     goal: &Bound<'_, PyAny>,
     robot: Option<&Bound<'_, PyRobot>>,
-    planner: Option<&str>,
+    planner: Option<&Bound<'_, PyAny>>,
     seed: Option<&Bound<'_, PyAny>>,
     clearance: Option<f64>,
     budget: Option<&Bound<'_, PyAny>>,
@@ -69,7 +76,16 @@ pub fn plan(
     let (world, scene, robot) = place(checker, robot)?;
     let ends = [end(&robot, "start", start)?, end(&robot, "goal", goal)?];
     let lab = any_robot(&robot);
-    let name = planner.map_or(Ok(PlannerName::default_for(&lab)), named)?;
+    let (name, own) = match planner {
+        None => (PlannerName::default_for(&lab), None),
+        Some(planner) => match planner.cast::<PyString>() {
+            Ok(name) => (named(&name.to_cow()?)?, None),
+            Err(_) => {
+                let own = PyPlanner::of(planner)?;
+                (own.name(), Some(own))
+            }
+        },
+    };
     if let Some(kept) = clearance.filter(|kept| !(0.0..=MAX_CLEARANCE).contains(kept)) {
         return Err(PyValueError::new_err(format!("clearance {kept}: it must be from 0 to {MAX_CLEARANCE} m")));
     }
@@ -78,14 +94,30 @@ pub fn plan(
     }
     let task = task(lab, (*world).clone(), scene, ends);
     let task = Task { tube, clearance, ..task };
-    let no_path = |reason: LabNoPath| match reason {
-        LabNoPath::Unsuited(_) => Error::new_err(reason.to_string()),
-        reason => NoPath::new_err(reason.to_string()),
-    };
-    let mut attempt = py.detach(|| task.attempt(name, seed)).map_err(no_path)?;
-    let solved = solve(py, attempt.as_mut(), name, budget)?;
-    solved.map_err(no_path)?;
+    let made = py.detach(|| match &own {
+        Some(own) => task.attempt_by_lines(own, name.draws_samples(), seed),
+        None => task.attempt(name, seed),
+    });
+    let mut attempt = made.map_err(|reason| no_path(py, &reason, None))?;
+    let solved = solve(py, attempt.as_mut(), name, budget);
+    let effort = attempt.effort();
+    if let Some(raised) = own.and_then(|own| own.ended()) {
+        return Err(if raised.is_instance_of::<NoPath>(py) { with_effort(py, raised, Some(effort)) } else { raised });
+    }
+    solved?.map_err(|reason| no_path(py, &reason, Some(effort)))?;
     Ok(PyPath::new(robot, task, name, seed.0, attempt))
+}
+
+/// Why there is no path, as it is raised.
+fn no_path(py: Python<'_>, reason: &LabNoPath, effort: Option<Effort>) -> PyErr {
+    match reason {
+        LabNoPath::Unsuited(_) => Error::new_err(reason.to_string()),
+        reason => with_effort(py, NoPath::new_err(reason.to_string()), effort),
+    }
+}
+
+fn with_effort(py: Python<'_>, raised: PyErr, effort: Option<Effort>) -> PyErr {
+    with(py, raised, |value| value.setattr("effort", effort.map(|effort| effort_dict(py, effort)).transpose()?))
 }
 
 /// The world, its obstacles under an index, and the robot that a path is planned for.

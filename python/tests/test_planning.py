@@ -150,7 +150,7 @@ def test_what_is_no_problem_is_refused_with_the_reason():
         (
             lambda: round_the_post(planner="rrt-conect"),
             ValueError,
-            'no planner is called "rrt-conect"; did you mean "rrt-connect"',
+            'there is no planner "rrt-conect"; there are rrt-connect, rrt, ',
         ),
         (
             lambda: ml.plan("workbench", (2.0, math.nan), (3.1, 0.0), robot=ml.Reach()),

@@ -20,10 +20,11 @@ use motion_lab_sim::plans::{OwnPlanner, PlannerError, Planners};
 /// use motion_lab::plans::{LinePlanner, MadePlanner, OwnPlanner};
 /// use motion_lab::prelude::*;
 ///
+/// #[derive(Default)]
 /// struct Downhill;
 ///
 /// impl LinePlanner for Downhill {
-///     fn for_problem<R: Robot<Configuration: Chart>>(problem: Problem<R>) -> MadePlanner<R> {
+///     fn for_problem<R: Robot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
 ///         Ok(Box::new(PotentialField::new(problem))) // or one that implements `Planner`
 ///     }
 /// }

@@ -30,6 +30,7 @@ from ._core import (
     Run,
     RunError,
     Rusty,
+    Search,
     Verification,
     World,
     WorldError,
@@ -46,6 +47,7 @@ from ._core import (
 
 if TYPE_CHECKING:
     from ._answers import FREE, HIT, UNRESOLVED, Edge, Shape, Verdict, Witness
+    from ._compare import Planner, compare
 
 __all__ = [
     "FREE",
@@ -68,6 +70,7 @@ __all__ = [
     "Obstacle",
     "Path",
     "Picture",
+    "Planner",
     "Reach",
     "Recorder",
     "Resident",
@@ -75,6 +78,7 @@ __all__ = [
     "Run",
     "RunError",
     "Rusty",
+    "Search",
     "Shape",
     "Verdict",
     "Verification",
@@ -82,6 +86,7 @@ __all__ = [
     "World",
     "WorldError",
     "__version__",
+    "compare",
     "plan",
     "planner_names",
     "read",
@@ -94,6 +99,7 @@ __all__ = [
 
 # what is loaded when it is first asked for, and from which module
 _LATER = dict.fromkeys(["FREE", "HIT", "UNRESOLVED", "Edge", "Shape", "Verdict", "Witness"], "_answers")
+_LATER |= dict.fromkeys(["Planner", "compare"], "_compare")
 
 
 def __getattr__(name: str) -> object:

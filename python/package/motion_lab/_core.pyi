@@ -9,6 +9,7 @@ import numpy.typing as npt
 from typing_extensions import disjoint_base
 
 from ._answers import Edge, Shape, Witness
+from ._compare import Planner
 
 __all__ = [
     "Assignment",
@@ -36,6 +37,7 @@ __all__ = [
     "Run",
     "RunError",
     "Rusty",
+    "Search",
     "Verification",
     "World",
     "WorldError",
@@ -76,7 +78,9 @@ class ConfigurationError(Error):
 
 class LogError(Error): ...
 class RunError(Error): ...
-class NoPath(RuntimeError): ...
+
+class NoPath(RuntimeError):
+    effort: dict[str, int] | None
 
 def world_names() -> list[str]: ...
 def set_threads(n: int | None = None) -> None: ...
@@ -280,7 +284,7 @@ def plan(
     goal: _One | npt.NDArray[Any],
     *,
     robot: Robot | None = None,
-    planner: str | None = None,
+    planner: str | Planner | type[Planner] | None = None,
     seed: SupportsIndex | None = None,
     clearance: float | None = None,
     budget: SupportsIndex | None = None,
@@ -352,6 +356,21 @@ class Path:
     def _repr_svg_(self) -> str: ...
     def _repr_html_(self) -> str: ...
     def __len__(self) -> int: ...
+
+@final
+class Search:
+    @property
+    def start(self) -> _Floats: ...
+    @property
+    def goal(self) -> _Floats: ...
+    @property
+    def nodes(self) -> _Floats: ...
+    def sample(self) -> _Floats: ...
+    def nearest(self, q: _One | npt.NDArray[Any]) -> int: ...
+    def edge_free(self, a: _One | npt.NDArray[Any], b: _One | npt.NDArray[Any]) -> bool: ...
+    def reach(self, node: SupportsIndex, q: _One | npt.NDArray[Any]) -> int | None: ...
+    def take(self, nodes: Sequence[SupportsIndex]) -> bool: ...
+    def take_branch(self, node: SupportsIndex) -> bool: ...
 
 @final
 class Picture:

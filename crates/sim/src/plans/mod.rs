@@ -21,6 +21,7 @@ mod bug1_sensor;
 mod checker_name;
 mod drawn;
 mod judged;
+mod making;
 mod named;
 mod own;
 mod path_file;

@@ -38,13 +38,13 @@ pub struct OwnPlanner {
     pub car: Option<PlannerMaker<Hitch, HitchArc>>,
 }
 
-/// A planner that is the same for every robot that can go along straight lines of its chart: rovers and arms.
+/// Makes a planner that is the same for every robot that can go along straight lines of its chart: rovers and arms.
 pub trait LinePlanner {
     /// The planner with its problem before its first iteration.
     ///
     /// # Errors
     /// [`NoPath::Unsuited`]: it does not plan for this robot.
-    fn for_problem<R: Robot<Configuration: Chart>>(problem: Problem<R>) -> MadePlanner<R>;
+    fn for_problem<R: Robot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R>;
 }
 
 impl OwnPlanner {
@@ -57,11 +57,8 @@ impl OwnPlanner {
 
     /// The planner, made for rovers and for arms of two and of three links.
     #[must_use]
-    pub const fn by_lines<P: LinePlanner>(self) -> Self {
-        let disc: PlannerMaker<RustyDisc> = P::for_problem;
-        let arm: PlannerMaker<Reach<2>> = P::for_problem;
-        let arm3: PlannerMaker<Reach<3>> = P::for_problem;
-        OwnPlanner { disc: Some(disc), arm: Some(arm), arm3: Some(arm3), ..self }
+    pub const fn by_lines<P: LinePlanner + Default>(self) -> Self {
+        OwnPlanner { disc: Some(made::<P, _>), arm: Some(made::<P, _>), arm3: Some(made::<P, _>), ..self }
     }
 
     /// The same planner, said to join samples that it draws.
@@ -86,6 +83,10 @@ impl OwnPlanner {
     }
 }
 
+fn made<P: LinePlanner + Default, R: Robot<Configuration: Chart>>(problem: Problem<R>) -> MadePlanner<R> {
+    P::default().for_problem(problem)
+}
+
 // a maker is no value to be compared
 impl PartialEq for OwnPlanner {
     fn eq(&self, other: &Self) -> bool {
@@ -94,27 +95,3 @@ impl PartialEq for OwnPlanner {
 }
 
 impl Eq for OwnPlanner {}
-
-/// A robot that an [`OwnPlanner`] may be made for.
-pub(super) trait OwnRobot: Robot {
-    /// The maker of its planners, if there is one.
-    fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>>;
-}
-
-impl OwnRobot for RustyDisc {
-    fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>> {
-        own.disc
-    }
-}
-
-impl OwnRobot for Reach<2> {
-    fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>> {
-        own.arm
-    }
-}
-
-impl OwnRobot for Reach<3> {
-    fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>> {
-        own.arm3
-    }
-}

@@ -21,13 +21,13 @@ pub struct Planners {
 pub enum PlannerError {
     /// Another planner has its name.
     #[error("there is a planner {0:?} already")]
-    Taken(&'static str),
+    Taken(String),
     /// Its name can't be written on a command line, in a list joined by commas and in the name of a file.
     #[error("{0:?} is no name of a planner: small letters, digits and hyphens, at most {MAX_ID}, a letter first")]
-    Id(&'static str),
+    Id(String),
     /// It is made for no robot.
     #[error("the planner {0:?} is made for no robot")]
-    NoRobot(&'static str),
+    NoRobot(String),
 }
 
 /// There is no planner of a name.
@@ -44,18 +44,26 @@ impl Planners {
     /// # Errors
     /// [`PlannerError`]: it has no name of its own, or is made for no robot. Then nothing is registered.
     pub fn register(&mut self, planner: &'static OwnPlanner) -> Result<(), PlannerError> {
-        let id = planner.id;
-        let is_part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
-        if !id.starts_with(|c: char| c.is_ascii_lowercase()) || !id.chars().all(is_part) || id.len() > MAX_ID {
-            return Err(PlannerError::Id(id));
-        }
-        if self.all().any(|known| known.id() == id) {
-            return Err(PlannerError::Taken(id));
-        }
+        self.check_name(planner.id)?;
         if !planner.suits_any() {
-            return Err(PlannerError::NoRobot(id));
+            return Err(PlannerError::NoRobot(planner.id.to_owned()));
         }
         self.own.push(planner);
+        Ok(())
+    }
+
+    /// Whether a planner of this name could be registered.
+    ///
+    /// # Errors
+    /// [`PlannerError`]: it is no name, or another planner has it.
+    pub fn check_name(&self, id: &str) -> Result<(), PlannerError> {
+        let is_part = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+        if !id.starts_with(|c: char| c.is_ascii_lowercase()) || !id.chars().all(is_part) || id.len() > MAX_ID {
+            return Err(PlannerError::Id(id.to_owned()));
+        }
+        if self.all().any(|known| known.id() == id) {
+            return Err(PlannerError::Taken(id.to_owned()));
+        }
         Ok(())
     }
 

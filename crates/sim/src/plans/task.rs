@@ -7,27 +7,27 @@ use motion_lab_core::collision::{Checker, Collision as _, Problem, ProblemError,
 use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::greater;
-use motion_lab_core::planning::hybrid::HybridAStar;
-use motion_lab_core::planning::{
-    Bug1, Bug2, CellDecomposition, CertifiedPath, GridSearch, LinePath, MARGIN, NoPath, Planner, PotentialField, Prm,
-    Rrt, RrtConnect, RrtStar, VisibilityGraph,
-};
+use motion_lab_core::planning::{CellDecomposition, CertifiedPath, LinePath, MARGIN, NoPath, Planner};
 use motion_lab_core::random::{Seed, Stream};
-use motion_lab_core::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Reach, Robot, Rusty, RustyDisc};
+use motion_lab_core::robots::{AnyRobot, Hitch, HitchArc, Reach, Robot, Rusty, RustyDisc};
 use motion_lab_core::sensors::BeamModel;
 use motion_lab_core::worlds::{Resident, World};
 
 use super::attempt::{LegMotion, PlanAttempt, Trial};
 use super::bug1_sensor::Bug1Sensor;
 use super::checker_name::CheckerName;
+use super::making::{ByLines, Making, OwnRobot};
 use super::named::PlannerName;
-use super::own::{OwnPlanner, OwnRobot};
+use super::own::LinePlanner;
 
 /// How much larger a rover is planned unless somebody says otherwise, metres.
 pub const TUBE: f64 = 0.02;
 
 /// Largest clearance that a path may be asked to keep, metres.
 pub const MAX_CLEARANCE: f64 = 100.0;
+
+/// Start and goal are not the robot's.
+const MISMATCH: NoPath = NoPath::Unsuited("start and goal are no configurations of this robot");
 
 /// The least tube in which a path is played, metres: no follower stays on a line without any width.
 const MIN_TUBE: f64 = 1e-3;
@@ -111,46 +111,74 @@ impl Task {
     /// [`NoPath`]: there is no problem, or the planner does not suit the robot.
     pub fn attempt(&self, name: PlannerName, seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
         name.suits(&self.robot).map_err(NoPath::Unsuited)?;
-        if self.clearance.is_none() {
-            return Task { clearance: Some(self.usual_clearance(name)), ..self.clone() }.attempt(name, seed);
+        let task = self.with_clearance(name.draws_samples());
+        match name {
+            PlannerName::Bug1Sensor => task.by_sensor(seed),
+            PlannerName::CellDecomposition => task.by_cells(seed),
+            _ => task.made_by(&name, seed),
         }
-        if self.said_clearance() > 0.0 && name == PlannerName::Bug1Sensor {
-            return Err(NoPath::Unsuited("it walks by what its sensor sees, and keeps no clearance of yours"));
-        }
+    }
+
+    /// A planner that a program makes as it goes, with the problem, ready to begin. Where nobody says a clearance, its
+    /// path keeps [what is usual](Self::usual_clearance) for one that draws samples, or for one that does not.
+    ///
+    /// # Errors
+    /// [`NoPath`]: there is no problem, or the planner does not suit the robot, as no such planner suits a car.
+    pub fn attempt_by_lines<P: LinePlanner>(
+        &self,
+        planner: &P,
+        draws_samples: bool,
+        seed: Seed,
+    ) -> Result<Box<dyn PlanAttempt>, NoPath> {
+        self.with_clearance(draws_samples).made_by(&ByLines(planner), seed)
+    }
+
+    /// The planner of the problem of this task's robot.
+    fn made_by(&self, making: &impl Making, seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
         match (self.robot, self.start, self.goal) {
             (AnyRobot::Reach(arm), AnyConfiguration::T2(start), AnyConfiguration::T2(goal)) => {
-                self.by_lines::<Reach<2>>(arm, [start, goal], name, seed)
+                self.by_lines::<Reach<2>>(arm, [start, goal], making, seed)
             }
             (AnyRobot::Reach3(arm), AnyConfiguration::T3(start), AnyConfiguration::T3(goal)) => {
-                self.by_lines::<Reach<3>>(arm, [start, goal], name, seed)
+                self.by_lines::<Reach<3>>(arm, [start, goal], making, seed)
             }
-            (AnyRobot::Rusty(rover), AnyConfiguration::Pose(start), AnyConfiguration::Pose(goal)) => {
-                let too_large = |_| NoPath::Unsuited("the rover with its tube is too large");
-                let disc = RustyDisc::try_new(rover.body_radius + self.tube).map_err(too_large)?;
-                let ends = [start, goal].map(|q| R2::new(q.x, q.y));
-                if name == PlannerName::Bug1Sensor {
-                    return self.by_sensor(disc, ends, seed);
-                }
-                self.by_lines(disc, ends, name, seed)
+            (AnyRobot::Rusty(_), ..) => {
+                let (disc, ends) = self.disc()?;
+                self.by_lines(disc, ends, making, seed)
             }
             (AnyRobot::Hitch(car), AnyConfiguration::Hitch(start), AnyConfiguration::Hitch(goal)) => {
                 let car = if start.trailer.is_some() { car.with_trailer() } else { car.without_trailer() };
                 let problem = self.problem(car, [start, goal], seed)?;
-                let planner = match name {
-                    PlannerName::Own(OwnPlanner { car: Some(make), .. }) => make(problem)?,
-                    _ => Box::new(HybridAStar::new(problem)),
-                };
-                Ok(self.trial::<Hitch, HitchArc>(car, planner))
+                Ok(self.trial::<Hitch, HitchArc>(car, making.make_for_car(problem)?))
             }
-            _ => Err(NoPath::Unsuited("start and goal are no configurations of this robot")),
+            _ => Err(MISMATCH),
         }
     }
 
-    /// The clearance that a path keeps where nobody says another, metres: [`MARGIN`] by the planners that draw samples,
-    /// if start and goal have more, and 0 by the others, which keep what they keep or say that there is no path at all.
-    pub fn usual_clearance(&self, name: PlannerName) -> f64 {
+    /// The disc that a rover is planned as, larger by the tube, and where its path begins and ends.
+    fn disc(&self) -> Result<(RustyDisc, [R2; 2]), NoPath> {
+        match (self.robot, self.start, self.goal) {
+            (AnyRobot::Rusty(rover), AnyConfiguration::Pose(start), AnyConfiguration::Pose(goal)) => {
+                let too_large = |_| NoPath::Unsuited("the rover with its tube is too large");
+                let disc = RustyDisc::try_new(rover.body_radius + self.tube).map_err(too_large)?;
+                Ok((disc, [start, goal].map(|q| R2::new(q.x, q.y))))
+            }
+            _ => Err(MISMATCH),
+        }
+    }
+
+    /// The task with the clearance that is usual where nobody says another.
+    fn with_clearance(&self, draws_samples: bool) -> Self {
+        let clearance = self.clearance.unwrap_or_else(|| self.usual_clearance(draws_samples));
+        Task { clearance: Some(clearance), ..self.clone() }
+    }
+
+    /// The clearance that a path keeps where nobody says another, metres: [`MARGIN`] by planners that
+    /// [draw samples](PlannerName::draws_samples), if start and goal have more, and 0 by the others, which keep what
+    /// they keep or say that there is no path at all.
+    pub fn usual_clearance(&self, draws_samples: bool) -> f64 {
         let has_more = |q: &AnyConfiguration| self.scene.distance(&self.planned().footprint(q)) > MARGIN;
-        let keeps = name.draws_samples() && self.checker.proves() && has_more(&self.start) && has_more(&self.goal);
+        let keeps = draws_samples && self.checker.proves() && has_more(&self.start) && has_more(&self.goal);
         if keeps { MARGIN } else { 0.0 }
     }
 
@@ -179,8 +207,12 @@ impl Task {
     }
 
     /// The planner whose rover walks by its range sensor.
-    fn by_sensor(&self, robot: RustyDisc, [start, goal]: [R2; 2], seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
-        let problem = Problem::try_new(self.checker.checker(&self.scene, robot), start, goal, seed)?;
+    fn by_sensor(&self, seed: Seed) -> Result<Box<dyn PlanAttempt>, NoPath> {
+        if self.said_clearance() > 0.0 {
+            return Err(NoPath::Unsuited("it walks by what its sensor sees, and keeps no clearance of yours"));
+        }
+        let (disc, [start, goal]) = self.disc()?;
+        let problem = Problem::try_new(self.checker.checker(&self.scene, disc), start, goal, seed)?;
         let noise = self.noise.map(|model| (model, Stream::new(seed, "bug1/beam")));
         Ok(Box::new(Trial::new(Box::new(Bug1Sensor::new(problem, noise)))))
     }
@@ -189,34 +221,15 @@ impl Task {
     fn by_lines<R>(
         &self,
         robot: R,
-        [start, goal]: [R::Configuration; 2],
-        name: PlannerName,
+        ends: [R::Configuration; 2],
+        making: &impl Making,
         seed: Seed,
     ) -> Result<Box<dyn PlanAttempt>, NoPath>
     where
-        R: OwnRobot<Configuration: Chart + Into<AnyConfiguration>> + Send,
+        R: OwnRobot<Configuration: Chart + Into<AnyConfiguration>>,
         LinePath<R>: PlayablePath,
     {
-        let problem = self.problem(robot.clone(), [start, goal], seed)?;
-        let planner: Box<dyn Planner<R, ChartLine<R>> + Send> = match name {
-            PlannerName::RrtConnect => Box::new(RrtConnect::new(problem)),
-            PlannerName::Rrt => Box::new(Rrt::new(problem)),
-            PlannerName::RrtStar => Box::new(RrtStar::new(problem)),
-            PlannerName::Prm => Box::new(Prm::new(problem)),
-            PlannerName::AStar => Box::new(GridSearch::a_star(problem)),
-            PlannerName::Dijkstra => Box::new(GridSearch::dijkstra(problem)),
-            PlannerName::VisibilityGraph => Box::new(VisibilityGraph::new(problem)),
-            PlannerName::PotentialField => Box::new(PotentialField::new(problem)),
-            PlannerName::Bug1 => Box::new(Bug1::try_new(&problem)?),
-            PlannerName::Bug2 => Box::new(Bug2::try_new(&problem)?),
-            PlannerName::CellDecomposition => return self.by_cells(seed),
-            PlannerName::Bug1Sensor => return Err(NoPath::Unsuited("it walks by the range sensor of a rover")),
-            PlannerName::HybridAStar => return Err(NoPath::Unsuited("it plans for a car only")),
-            PlannerName::Own(own) => {
-                let make = R::maker(own).ok_or(NoPath::Unsuited("it is not made for this robot"))?;
-                make(problem)?
-            }
-        };
+        let planner = making.make(self.problem(robot.clone(), ends, seed)?)?;
         Ok(self.trial(robot, planner))
     }
 

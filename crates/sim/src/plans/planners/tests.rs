@@ -9,18 +9,20 @@ use motion_lab_core::worlds::World;
 use super::*;
 use crate::plans::{LinePlanner, MadePlanner, Task};
 
+#[derive(Default)]
 struct Connects;
 
 impl LinePlanner for Connects {
-    fn for_problem<R: Robot<Configuration: Chart>>(problem: Problem<R>) -> MadePlanner<R> {
+    fn for_problem<R: Robot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
         Ok(Box::new(RrtConnect::new(problem)))
     }
 }
 
+#[derive(Default)]
 struct Descends;
 
 impl LinePlanner for Descends {
-    fn for_problem<R: Robot<Configuration: Chart>>(problem: Problem<R>) -> MadePlanner<R> {
+    fn for_problem<R: Robot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
         Ok(Box::new(PotentialField::new(problem)))
     }
 }
@@ -80,7 +82,7 @@ fn a_planner_without_a_name_of_its_own_or_for_no_robot_is_refused() {
     let mut planners = Planners::default();
     planners.register(&CONNECTS).unwrap();
     for taken in ["my-connect", "rrt-star"] {
-        assert_eq!(planners.register(named(taken)), Err(PlannerError::Taken(taken)));
+        assert_eq!(planners.register(named(taken)), Err(PlannerError::Taken(taken.into())));
     }
     for id in [
         "",
@@ -94,11 +96,11 @@ fn a_planner_without_a_name_of_its_own_or_for_no_robot_is_refused() {
         "naïve",
         "a23456789-123456789-123456789-123456789-1",
     ] {
-        assert_eq!(planners.register(named(id)), Err(PlannerError::Id(id)), "{id}");
+        assert_eq!(planners.register(named(id)), Err(PlannerError::Id(id.into())), "{id}");
     }
     planners.register(named("a23456789-123456789-123456789-123456789-")).unwrap();
     static NOBODYS: OwnPlanner = OwnPlanner::new("nobodys", "Nobody's", "For no robot");
-    assert_eq!(planners.register(&NOBODYS), Err(PlannerError::NoRobot("nobodys")));
+    assert_eq!(planners.register(&NOBODYS), Err(PlannerError::NoRobot("nobodys".into())));
     assert_eq!(planners.all().count(), PlannerName::ALL.len() + 2, "what was refused is not there");
 }
 
@@ -146,6 +148,6 @@ fn a_planner_of_ones_own_does_what_the_labs_does_by_the_same_means() {
 fn one_that_joins_samples_keeps_the_usual_margin_and_no_other_does() {
     let task = &tasks()[1];
     for (own, kept) in [(&DRAWS, MARGIN), (&CONNECTS, 0.0), (&DESCENDS, 0.0)] {
-        assert_eq!(task.usual_clearance(PlannerName::Own(own)), kept, "{}", own.id);
+        assert_eq!(task.usual_clearance(PlannerName::Own(own).draws_samples()), kept, "{}", own.id);
     }
 }

@@ -66,11 +66,11 @@ fn planners_that_draw_samples_keep_a_millimetre_where_start_and_goal_have_more()
     };
     for name in PlannerName::ALL {
         let kept = if matches!(name, RrtConnect | Rrt | RrtStar | Prm) { 1e-3 } else { 0.0 };
-        assert_eq!(task(0.132, 0.132).usual_clearance(name), kept, "{}", name.id());
-        assert_eq!(task(0.1305, 2.0).usual_clearance(name), 0.0, "{}", name.id());
-        assert_eq!(task(2.0, 0.1305).usual_clearance(name), 0.0, "{}", name.id());
+        assert_eq!(task(0.132, 0.132).usual_clearance(name.draws_samples()), kept, "{}", name.id());
+        assert_eq!(task(0.1305, 2.0).usual_clearance(name.draws_samples()), 0.0, "{}", name.id());
+        assert_eq!(task(2.0, 0.1305).usual_clearance(name.draws_samples()), 0.0, "{}", name.id());
         let unproven = Task { checker: CheckerName::PARRY, ..task(2.0, 2.0) };
-        assert_eq!(unproven.usual_clearance(name), 0.0, "{}", name.id());
+        assert_eq!(unproven.usual_clearance(name.draws_samples()), 0.0, "{}", name.id());
     }
     // half a millimetre is enough for a path, unless more is asked for
     assert!(task(0.1305, 2.0).attempt(RrtConnect, Seed(1)).is_ok());
