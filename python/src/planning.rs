@@ -41,11 +41,13 @@ pub fn planner_names() -> Vec<&'static str> {
 /// a `Checker` it takes a `World` or the name of one, and a `robot`.
 ///
 /// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. Or it is a planner of
-/// yours for any robot but a car: an object, or its class, with a `name` and a method `advance(search)`, which is called
-/// for each iteration until it has taken a path; `draws_samples` is True of one that joins samples. What `advance`
-/// raises is raised here. `seed`, 2005, is what
-/// its samples follow from: the same seed gives the same path on every machine. A rover's heading does not matter: its
-/// path is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its goal.
+/// yours for any robot but a car: an object, or its class, with a `name` and a method `advance(search)`, called for
+/// each iteration until it has taken a path; `draws_samples` is True of one that joins samples. What it raises is
+/// raised.
+///
+/// `seed`, 2005, is what the samples follow from: the same seed gives the same path on every machine. A rover's heading
+/// does not matter: its path is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its
+/// goal.
 ///
 /// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
 /// samples, if start and goal have it, else 0. `budget` is the greatest number of iterations, 100,000 if left out

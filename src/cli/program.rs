@@ -4,8 +4,11 @@ use std::process::ExitCode;
 
 use clap::FromArgMatches;
 
-use super::{Cli, Data, Failure, Outcome, command_line, exit, say};
-use crate::cli::support::planners;
+use super::command_line::{Cli, command_line};
+use super::commands::plan::planners;
+use super::help::exit;
+use super::support::console::{Data, say};
+use super::support::end::{Failure, Outcome};
 use motion_lab_sim::plans::{OwnPlanner, PlannerError, Planners};
 
 /// The program `motion-lab`, to which a program of one's own may add.

@@ -153,13 +153,10 @@ fn first_circle(uses: &[Vec<usize>]) -> Option<Vec<usize>> {
 
 #[test]
 fn no_circle_of_files() {
-    // the program is a crate of its own on top of the library
-    let of_program = |s: &Source| s.of_crate() == "motion_lab" && (s.room() == "cli" || s.file == "src/main.rs");
     let sources = sources();
     let (mut arrows, mut circles) = (0, Vec::new());
-    for name in CRATES.map(|(name, _)| name).into_iter().chain(["program"]) {
-        let of_part = |s: &&Source| if of_program(s) { name == "program" } else { s.of_crate() == name };
-        let part: Vec<&Source> = sources.iter().filter(of_part).collect();
+    for (name, _) in CRATES {
+        let part: Vec<&Source> = sources.iter().filter(|s| s.of_crate() == name).collect();
         let graph = Graph::new(&part);
         let number = |s: &Source| part.iter().position(|p| p.file == s.file).unwrap();
         let mut uses: Vec<Vec<usize>> =

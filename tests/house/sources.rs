@@ -222,7 +222,9 @@ impl<'a> Graph<'a> {
         let paths = paths.filter(|path| !source.module.starts_with(path));
         let mut used: Vec<&Source> = paths
             .filter_map(|path| self.home(&path))
-            .filter(|s| s.file != source.file && !s.file.ends_with("src/lib.rs"))
+            .filter(|s| {
+                s.file != source.file && !["src/lib.rs", "src/main.rs"].iter().any(|root| s.file.ends_with(root))
+            })
             .collect();
         used.sort_by(|a, b| a.file.cmp(&b.file));
         used.dedup_by(|a, b| a.file == b.file);

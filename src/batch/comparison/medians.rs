@@ -4,7 +4,7 @@ use motion_lab_sim::export::JsonNumber;
 use motion_lab_sim::plans::{PathLengths, PlannerName};
 use serde::Serialize;
 
-use super::{ComparedAttempt, PlannerComparison};
+use super::compared::{ComparedAttempt, PlannerComparison};
 
 /// What came of one planner: medians over the attempts that have a path, `None` without any.
 #[derive(Clone, Debug, Serialize)]

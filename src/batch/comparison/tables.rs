@@ -5,8 +5,9 @@ use std::io::Write;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration as _};
 use motion_lab_core::planning::Effort;
 use motion_lab_sim::capture::unit;
+use motion_lab_sim::plans::PathLengths;
 
-use super::{ComparedAttempt, PlannerComparison};
+use super::compared::{ComparedAttempt, PlannerComparison};
 use crate::batch::columns::{CellKind, Column};
 use crate::batch::row::RowValue;
 use crate::batch::table::{TableError, TableWriter};
@@ -74,7 +75,7 @@ impl PlannerComparison {
         let ComparedAttempt { case, planner, seed, effort, seconds, path, costs: _ } = attempt;
         let Effort { iterations, samples, edges, free } = *effort;
         let number = |x: Option<f64>| x.map_or(RowValue::Empty, RowValue::Number);
-        let path_number = |of: fn(&super::PathLengths) -> f64| number(path.as_ref().ok().map(of));
+        let path_number = |of: fn(&PathLengths) -> f64| number(path.as_ref().ok().map(of));
         let numbers = |q: &AnyConfiguration| {
             RowValue::text(q.coordinates().iter().map(f64::to_string).collect::<Vec<_>>().join(","))
         };

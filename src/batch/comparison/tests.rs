@@ -1,7 +1,7 @@
 use motion_lab_core::planning::NoPath;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
-use motion_lab_sim::plans::{PlannerName, Task};
+use motion_lab_sim::plans::{PathLengths, PlannerName, Task};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 

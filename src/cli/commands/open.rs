@@ -8,9 +8,9 @@ use clap::Args;
 use crate::app::{Opened, WindowError, open_in_window};
 use motion_lab_core::worlds::World;
 
+use crate::cli::commands::plan::planners::planners;
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::read_bytes_if;
-use crate::cli::support::planners::planners;
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, Outcome};
 

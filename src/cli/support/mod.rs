@@ -9,7 +9,6 @@ pub(crate) mod interrupt;
 pub(crate) mod log_source;
 pub(crate) mod output;
 pub(crate) mod paper;
-pub(crate) mod planners;
 pub(crate) mod progress;
 pub(crate) mod simulate;
 pub(crate) mod summary;

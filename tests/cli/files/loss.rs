@@ -23,7 +23,7 @@ const READ: [&str; 11] = [
 
 /// Options that name files to write, each with command lines that write `OUT` while they read `IN`, and the file that
 /// they read.
-const WRITTEN: [(&str, &[(&str, &str)]); 25] = [
+const WRITTEN: [(&str, &[(&str, &str)]); 26] = [
     (
         "record --output",
         &[
@@ -67,6 +67,10 @@ const WRITTEN: [(&str, &[(&str, &str)]); 25] = [
     ("plan --svg", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --svg OUT", "wb.ron")]),
     ("plan --barrier", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --barrier OUT", "wb.ron")]),
     ("plan --gif", &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --gif OUT", "wb.ron")]),
+    (
+        "plan --costs",
+        &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --compare rrt --seeds 0..1 --costs OUT", "wb.ron")],
+    ),
     (
         "plan --csv",
         &[

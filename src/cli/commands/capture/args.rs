@@ -1,9 +1,9 @@
 //! `Capture`, what `capture` is asked for.
 
 use crate::capture::CaptureForm;
+use crate::cli::commands::plan::planners::planner_name;
 use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, form, one_of};
 use crate::cli::support::paper::PaperArgs;
-use crate::cli::support::planners::planner_name;
 use clap::Args;
 use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::manifest::Widget;

@@ -1,10 +1,10 @@
 //! `PlanArgs`, what `plan` is asked for.
 
+use super::planners::planner_name;
 use crate::capture::CaptureForm;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::choices::{NumberList, RobotsAndKinds, WorldNames, checker, form};
 use crate::cli::support::paper::PaperArgs;
-use crate::cli::support::planners::planner_name;
 use clap::Args;
 use motion_lab_sim::plans::{CheckerName, PlannerName};
 use std::path::PathBuf;

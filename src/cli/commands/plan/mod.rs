@@ -11,6 +11,7 @@ mod compare;
 pub mod drawing;
 mod exact;
 pub mod film;
+pub mod planners;
 mod play;
 mod rounds;
 mod targets;

@@ -6,9 +6,9 @@ use std::path::Path;
 use crate::batch::{Study, StudyError, StudyFile};
 
 use crate::cli::Failure;
+use crate::cli::commands::plan::planners::planners;
 use crate::cli::support::console::note;
 use crate::cli::support::input::{read_text, shown};
-use crate::cli::support::planners::planners;
 use crate::cli::support::words::parse_script;
 use crate::cli::support::world_source::{find_world_beside, read_scenario};
 

@@ -10,8 +10,8 @@ use motion_lab_sim::plans::{PathLengths, PlannerName, Task};
 use motion_lab_sim::run::{Recipe, Script, seconds};
 use motion_lab_sim::tour::TourConfig;
 
+use crate::cli::commands::plan::planners::planners;
 use crate::cli::commands::plan::solve;
-use crate::cli::support::planners::planners;
 
 /// What became of a run's inputs.
 pub enum PlannedInputs {

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use clap::builder::TypedValueParser;
 
-use super::choices::one_of;
+use crate::cli::support::choices::one_of;
 use motion_lab_sim::plans::{PlannerName, Planners};
 
 static PLANNERS: OnceLock<Planners> = OnceLock::new();

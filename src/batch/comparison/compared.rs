@@ -1,0 +1,147 @@
+//! What is compared, and what came of it.
+
+use std::ops::Range;
+use std::time::Instant;
+
+use motion_lab_core::planning::{Effort, NoPath};
+use motion_lab_core::random::Seed;
+use motion_lab_sim::plans::{PathLengths, PlanAttempt, PlannerName, Task, solve_in_rounds};
+
+use super::case::PlanCase;
+
+/// What is compared: every planner works on every problem, from every seed.
+#[derive(Clone, Debug)]
+pub struct PlannerComparison {
+    /// The robot in its world. Each case says where its path begins and ends.
+    pub task: Task,
+    /// The problems, at least one.
+    pub cases: Vec<PlanCase>,
+    /// The planners.
+    pub planners: Vec<PlannerName>,
+    /// The seeds of the planners' samples.
+    pub seeds: Range<u64>,
+    /// The greatest number of iterations, up to which a planner that can shortens its path; without it, its usual
+    /// number, and the first path is taken.
+    pub iterations: Option<u64>,
+}
+
+/// The length of the best path after some iterations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathCost {
+    /// The number of iterations.
+    pub iterations: u64,
+    /// The length, in the unit of [`PathLengths`].
+    pub length: f64,
+}
+
+/// What came of one planner by one problem from one seed.
+#[derive(Clone, Debug)]
+pub struct ComparedAttempt {
+    /// The problem.
+    pub case: PlanCase,
+    /// The planner.
+    pub planner: PlannerName,
+    /// The seed.
+    pub seed: Seed,
+    /// What the planner did.
+    pub effort: Effort,
+    /// How long it took, seconds; this differs from run to run.
+    pub seconds: f64,
+    /// Length and clearance of the path, or why there is none.
+    pub path: Result<PathLengths, String>,
+    /// The first path's length, and that of each shorter one: looked at every 500 iterations and at the end.
+    pub costs: Vec<PathCost>,
+}
+
+impl PlannerComparison {
+    /// Planners by a task's own problem.
+    pub fn of(task: Task, planners: Vec<PlannerName>, seeds: Range<u64>) -> Self {
+        let cases = vec![PlanCase { ends: [task.start, task.goal], problem: None }];
+        PlannerComparison { task, cases, planners, seeds, iterations: None }
+    }
+
+    /// The number of attempts.
+    pub fn count(&self) -> u64 {
+        let seeds = self.seeds.end.saturating_sub(self.seeds.start);
+        seeds.saturating_mul(self.planners.len() as u64).saturating_mul(self.cases.len() as u64)
+    }
+
+    /// Makes all attempts, one after the other: by planner, problem and seed. Before each, and after every few
+    /// iterations, `goes_on` gets the number of those that are done, and says whether to go on. Fewer than
+    /// [`count`](Self::count) are those until it did not.
+    ///
+    /// # Errors
+    /// [`NoPath::Problem`]: the problem is none, which is so for every planner and every seed. A scenario's problem
+    /// that is none has attempts without a path instead.
+    pub fn run(&self, mut goes_on: impl FnMut(u64) -> bool) -> Result<Vec<ComparedAttempt>, NoPath> {
+        let mut done = Vec::new();
+        let mut task = self.task.clone();
+        for &planner in &self.planners {
+            for case in &self.cases {
+                [task.start, task.goal] = case.ends;
+                for seed in self.seeds.clone() {
+                    let count = done.len() as u64;
+                    let goes_on = || goes_on(count);
+                    let Some(attempt) = self.attempt(&task, case, (planner, Seed(seed)), goes_on)? else {
+                        return Ok(done);
+                    };
+                    done.push(attempt);
+                }
+            }
+        }
+        Ok(done)
+    }
+
+    /// An attempt, or why there is no problem. `None` where it is not to go on.
+    fn attempt(
+        &self,
+        task: &Task,
+        case: &PlanCase,
+        (planner, seed): (PlannerName, Seed),
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Result<Option<ComparedAttempt>, NoPath> {
+        if !goes_on() {
+            return Ok(None);
+        }
+        let begun = Instant::now();
+        let none = |reason: String| ComparedAttempt {
+            case: *case,
+            planner,
+            seed,
+            effort: Effort::default(),
+            seconds: 0.0,
+            path: Err(reason),
+            costs: Vec::new(),
+        };
+        let mut attempt = match task.attempt(planner, seed) {
+            Ok(attempt) => attempt,
+            Err(reason @ NoPath::Problem(_)) if case.problem.is_none() => return Err(reason),
+            Err(reason) => return Ok(Some(none(reason.to_string()))),
+        };
+        let mut costs = Vec::new();
+        let solved = solve_in_rounds(attempt.as_mut(), planner, self.iterations, |attempt| {
+            see_cost(attempt, &mut costs);
+            goes_on()
+        });
+        let Some(solved) = solved else { return Ok(None) };
+        let seconds = begun.elapsed().as_secs_f64();
+        see_cost(attempt.as_ref(), &mut costs);
+        let path = solved.map(|()| attempt.lengths()).map_err(|reason| reason.to_string());
+        Ok(Some(ComparedAttempt { effort: attempt.effort(), seconds, path, costs, ..none(String::new()) }))
+    }
+
+    /// The number of a planner's attempts that had a path after so many iterations.
+    pub fn solved_within(attempts: &[ComparedAttempt], planner: PlannerName, iterations: u64) -> usize {
+        let own = attempts.iter().filter(|attempt| attempt.planner == planner);
+        own.filter(|attempt| attempt.costs.first().is_some_and(|first| first.iterations <= iterations)).count()
+    }
+}
+
+/// Notes the length of the best path, where it is the first or shorter than the last.
+fn see_cost(attempt: &dyn PlanAttempt, costs: &mut Vec<PathCost>) {
+    let has_path = !attempt.legs().is_empty();
+    let cost = PathCost { iterations: attempt.effort().iterations, length: attempt.lengths().length };
+    if has_path && costs.last().is_none_or(|last| cost.length < last.length) {
+        costs.push(cost);
+    }
+}
