@@ -63,6 +63,8 @@ const MESSAGES: u64 = 10;
 /// With --certificate the proof of `edge` goes to a file, as JSON: the world's shapes, the robot, the motion, and the
 /// steps [from, to, clearance] in which it is free, for other programs to check. Of a motion that hits it proves what
 /// comes before.
+// the words are the command's help, where brackets are JSON
+#[allow(rustdoc::broken_intra_doc_links)]
 #[derive(Debug, Args)]
 #[command(
     verbatim_doc_comment,
