@@ -10,7 +10,7 @@ use std::process::ExitCode;
 use motion_lab::cli::Program;
 use motion_lab::configuration::Chart;
 use motion_lab::planning::{Planner, Search};
-use motion_lab::plans::{LinePlanner, MadePlanner, OwnPlanner};
+use motion_lab::plans::{LinePlanner, MadePlanner, OwnPlanner, PlannerError};
 use motion_lab::prelude::*;
 
 /// Goes from the start to the goal over one sample, the first that both see.
@@ -56,9 +56,6 @@ static DETOUR: OwnPlanner =
         .by_lines::<MakeDetour>()
         .drawing_samples();
 
-fn main() -> ExitCode {
-    match Program::default().with_planner(&DETOUR) {
-        Ok(program) => program.run(),
-        Err(_) => ExitCode::FAILURE, // another planner has that name
-    }
+fn main() -> Result<ExitCode, PlannerError> {
+    Ok(Program::default().with_planner(&DETOUR)?.run())
 }

@@ -67,8 +67,6 @@
 pub use motion_lab_core::{
     collision, configuration, cspace, geometry, num, picture, planning, prelude, random, robots, sensors, short_list,
 };
-#[doc(hidden)]
-pub use motion_lab_sim::manifest;
 pub use motion_lab_sim::{anatomy, atlas, avoid, course, export, plans, run, run_page, shrink, simulation, tour};
 
 /// Worlds: lists of named geometry, never bitmaps.

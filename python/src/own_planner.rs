@@ -19,7 +19,7 @@ use crate::search::{Lent, PySearch};
 /// The end of a search whose planner raised an error, which is raised instead.
 const RAISED: NoPath = NoPath::Unsuited("its advance raised an error");
 
-/// The names that planners have had. They stay, each once, as names of planners are for ever.
+/// The names that planners have had, each with and without samples. They stay, as names of planners are for ever.
 static NAMED: Mutex<BTreeMap<String, &'static OwnPlanner>> = Mutex::new(BTreeMap::new());
 
 /// A planner's object while it plans, and what it raised.
@@ -57,7 +57,7 @@ impl PyPlanner {
             Some(draws) => draws.extract().map_err(|_| PyTypeError::new_err("draws_samples is True or False"))?,
             None => false,
         };
-        let named = named(name, draws_samples)?;
+        let named = row(name, draws_samples)?;
         let object = Object { planner: Some(object.unbind()), raised: None };
         Ok(PyPlanner { named, object: Arc::new(Mutex::new(object)) })
     }
@@ -76,7 +76,7 @@ impl PyPlanner {
 }
 
 /// The row of this name, checked as that of a planner in Rust.
-fn named(name: String, draws_samples: bool) -> PyResult<&'static OwnPlanner> {
+fn row(name: String, draws_samples: bool) -> PyResult<&'static OwnPlanner> {
     let mut known = locked(&NAMED);
     let key = format!("{name}/{draws_samples}");
     if let Some(row) = known.get(&key) {

@@ -95,8 +95,10 @@ def test_a_tree_in_python_goes_round_the_post_and_from_room_to_room():
     arm = ml.Reach(lengths=(0.5, 0.4, 0.3))
     path = ml.plan("workbench", (2, 0, 0.1), (2.2, 1.9, 0), robot=arm, planner=Rrt)
     assert path.corners.shape[1] == 3
-    with pytest.raises(ml.Error, match="no car can drive"):
-        ml.plan("lot", (6.5, 2.5, 0), (6.75, 7, -1.5), robot=ml.Hitch(), planner=Rrt)
+    # for a car there is none, whether its start touches something or not
+    for start in ((6.5, 2.5, 0), (0.0, 0.0, 0.0)):
+        with pytest.raises(ml.Error, match="no car can drive"):
+            ml.plan("lot", start, (6.75, 7, -1.5), robot=ml.Hitch(), planner=Rrt)
 
 
 def test_what_a_search_answers():
@@ -161,6 +163,13 @@ def test_a_path_that_is_not_free_or_does_not_reach_the_goal_is_none():
 
 def test_what_advance_raises_is_raised_once_and_ends_the_search():
     calls = []
+
+    def take_and_raise(search):
+        search.take([0, search.reach(0, search.goal)])
+        raise ZeroDivisionError("after all")
+
+    with pytest.raises(ZeroDivisionError, match="after all"):
+        planned(of(take_and_raise), ((2.0, 0.0), (2.0, 0.3)))
 
     def advance(search):
         calls.append(search.sample())
@@ -237,6 +246,20 @@ def test_planners_are_compared_by_rows():
         assert (row["solved"], row["length"], row["clearance_m"]) == (True, path.length, path.clearance)
         assert {name: row[name] for name in path.effort} == path.effort and row["reason"] is None
         assert row["time_s"] > 0
+    # each attempt has a planner of its own, which says its name
+    made = []
+
+    class Counted(Detour):
+        def __init__(self):
+            super().__init__()
+            self.name = f"detour-{len(made)}"
+            made.append(self)
+
+    rows = ml.compare([Counted], "workbench", *ENDS, robot=ml.Reach(), seeds=range(3))
+    assert [row["planner"] for row in rows] == ["detour-0", "detour-1", "detour-2"]
+    assert [row["iterations"] for row in rows] == [planner.iterations for planner in made]
+    with pytest.raises(ml.Error, match="plans for discs"):
+        ml.compare(["rrt", "bug1"], "workbench", *ENDS, robot=ml.Reach(), seeds=[1])
     without = ml.compare(["rrt", "prm"], "workbench", *POST, robot=ml.Reach(), seeds=range(2), budget=2)
     assert [row["solved"] for row in without] == [False] * 4
     assert {row["iterations"] for row in without} == {2} and {row["length"] for row in without} == {None}

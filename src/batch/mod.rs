@@ -40,7 +40,7 @@ mod tests;
 mod values;
 
 pub use columns::{CellKind, Column, MAX_ROBOT_COLUMNS};
-pub use comparison::{ComparedAttempt, KnownProblem, PathCost, PlanCase, PlannerComparison, PlannerMedians};
+pub use comparison::{ComparedAttempt, KnownProblem, NoProblem, PathCost, PlanCase, PlannerComparison, PlannerMedians};
 pub use error::{MAX_RUNS, PLAN_VERSION, StudyError, SweepProblem};
 pub use gatherer::RowGatherer;
 pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};

@@ -14,13 +14,14 @@ use motion_lab_sim::plans::{OwnPlanner, PlannerError, Planners};
 /// The program `motion-lab`, to which a program of one's own may add.
 ///
 /// A planner that is added is one among the lab's: `plan --planner` and `--compare`, GIFs of its growth, studies of
-/// `sweep`, the chooser of the widget *Plan*.
+/// `sweep`, the chooser of the widget *Plan*. Whatever the program is called, it calls itself `motion-lab` in examples,
+/// in commands to copy and in completions.
 ///
 /// ```no_run
 /// use motion_lab::cli::Program;
 /// use motion_lab::configuration::Chart;
 /// use motion_lab::planning::{Planner, PotentialField};
-/// use motion_lab::plans::{LinePlanner, MadePlanner, OwnPlanner};
+/// use motion_lab::plans::{LinePlanner, MadePlanner, OwnPlanner, PlannerError};
 /// use motion_lab::prelude::*;
 ///
 /// #[derive(Default)]
@@ -35,9 +36,8 @@ use motion_lab_sim::plans::{OwnPlanner, PlannerError, Planners};
 /// static DOWNHILL: OwnPlanner =
 ///     OwnPlanner::new("downhill", "Downhill", "Down the gradient of a field").by_lines::<Downhill>();
 ///
-/// fn main() -> std::process::ExitCode {
-///     let program = Program::default().with_planner(&DOWNHILL).expect("it has a name of its own");
-///     program.run()
+/// fn main() -> Result<std::process::ExitCode, PlannerError> {
+///     Ok(Program::default().with_planner(&DOWNHILL)?.run())
 /// }
 /// ```
 #[derive(Clone, Debug, Default)]

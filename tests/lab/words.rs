@@ -1,9 +1,9 @@
 //! What is said of worlds, scripts and assignments that can't be read: in the words of those who write such files.
 
-use motion_lab::manifest::Lesson;
 use motion_lab::recording::AssignmentFile;
 use motion_lab::run::Script;
 use motion_lab::worlds::World;
+use motion_lab_sim::manifest::Lesson;
 
 const SCRIPT: &str = r#"// a drive
 Script(version: 2, events: [

@@ -14,6 +14,8 @@ from pathlib import Path
 
 PACKAGES = "-p motion-lab-core -p motion-lab-sim -p motion-lab --no-default-features --features headless".split()
 TESTS = [*PACKAGES, *"--lib --test core --test sim --test tests".split()]
+# the programs that tests run and cargo does not build with them
+BESIDE = [*PACKAGES, "--example", "own_program"]
 # optimised, or the tests of the simulator take most of the day; with debug assertions, which notice faults of their own
 BUILD = {"CARGO_TERM_COLOR": "never", "CARGO_INCREMENTAL": "0", "RUSTFLAGS": "--cap-lints allow"}
 BUILD |= {"CARGO_PROFILE_DEV_OPT_LEVEL": "2", "CARGO_PROFILE_DEV_DEBUG": "0"}

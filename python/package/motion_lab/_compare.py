@@ -36,25 +36,28 @@ def compare(
     seeds: Iterable[int] = range(100),
     **how: Any,
 ) -> list[dict[str, Any]]:
-    """A row for each planner and seed, named as the columns of ``motion-lab plan --compare --csv``.
+    """A row for each planner and seed: what it did, the path's length, in the path's unit, and clearance, or the reason.
 
-    The other arguments are those of ``plan``. A class is called for a planner of each attempt. What is not there is
-    None: length and clearance without a path, the reason with one. ``pandas.DataFrame(rows)`` is the table.
+    The other arguments are those of ``plan``, and what ``plan`` raises is raised, but for NoPath. A class is called for
+    a planner of each attempt. Length and clearance are None without a path, the reason is with one.
+    ``pandas.DataFrame(rows)`` is the table.
     """
     seeds = list(seeds)
     rows = []
     for planner in planners:
         for seed in seeds:
             begun = time.perf_counter()
+            # a planner may hold what it has grown, so that each attempt has one of its own
+            own = planner() if isinstance(planner, type) else planner
             path, reason = None, None
             try:
-                path = plan(checker, start, goal, planner=planner, seed=seed, **how)
+                path = plan(checker, start, goal, planner=own, seed=seed, **how)
                 effort = path.effort
             except NoPath as error:
                 reason = str(error)
                 effort = error.effort or dict.fromkeys(["iterations", "samples", "edges", "free"], 0)
             row: dict[str, Any] = {
-                "planner": planner if isinstance(planner, str) else planner.name,
+                "planner": own if isinstance(own, str) else own.name,
                 "seed": seed,
                 "solved": path is not None,
                 "time_s": time.perf_counter() - begun,

@@ -53,6 +53,18 @@ pub struct ComparedAttempt {
     pub costs: Vec<PathCost>,
 }
 
+/// There is nothing to be planned: the start or the goal is in contact, outside, or none of the robot's.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{reason}")]
+pub struct NoProblem {
+    /// The planner that met it first.
+    pub planner: PlannerName,
+    /// Its seed.
+    pub seed: Seed,
+    /// What is wrong.
+    pub reason: NoPath,
+}
+
 impl PlannerComparison {
     /// Planners by a task's own problem.
     pub fn of(task: Task, planners: Vec<PlannerName>, seeds: Range<u64>) -> Self {
@@ -71,9 +83,9 @@ impl PlannerComparison {
     /// [`count`](Self::count) are those until it did not.
     ///
     /// # Errors
-    /// [`NoPath::Problem`]: the problem is none, which is so for every planner and every seed. A scenario's problem
-    /// that is none has attempts without a path instead.
-    pub fn run(&self, mut goes_on: impl FnMut(u64) -> bool) -> Result<Vec<ComparedAttempt>, NoPath> {
+    /// [`NoProblem`]: the problem is none, which is so for every planner and every seed. A scenario's problem that is
+    /// none has attempts without a path instead.
+    pub fn run(&self, mut goes_on: impl FnMut(u64) -> bool) -> Result<Vec<ComparedAttempt>, NoProblem> {
         let mut done = Vec::new();
         let mut task = self.task.clone();
         for &planner in &self.planners {
@@ -99,7 +111,7 @@ impl PlannerComparison {
         case: &PlanCase,
         (planner, seed): (PlannerName, Seed),
         mut goes_on: impl FnMut() -> bool,
-    ) -> Result<Option<ComparedAttempt>, NoPath> {
+    ) -> Result<Option<ComparedAttempt>, NoProblem> {
         if !goes_on() {
             return Ok(None);
         }
@@ -115,7 +127,9 @@ impl PlannerComparison {
         };
         let mut attempt = match task.attempt(planner, seed) {
             Ok(attempt) => attempt,
-            Err(reason @ NoPath::Problem(_)) if case.problem.is_none() => return Err(reason),
+            Err(reason @ NoPath::Problem(_)) if case.problem.is_none() => {
+                return Err(NoProblem { planner, seed, reason });
+            }
             Err(reason) => return Ok(Some(none(reason.to_string()))),
         };
         let mut costs = Vec::new();
@@ -139,9 +153,8 @@ impl PlannerComparison {
 
 /// Notes the length of the best path, where it is the first or shorter than the last.
 fn see_cost(attempt: &dyn PlanAttempt, costs: &mut Vec<PathCost>) {
-    let has_path = !attempt.legs().is_empty();
     let cost = PathCost { iterations: attempt.effort().iterations, length: attempt.lengths().length };
-    if has_path && costs.last().is_none_or(|last| cost.length < last.length) {
+    if attempt.has_path() && costs.last().is_none_or(|last| cost.length < last.length) {
         costs.push(cost);
     }
 }

@@ -23,5 +23,5 @@ mod tables;
 mod tests;
 
 pub use case::{KnownProblem, PlanCase};
-pub use compared::{ComparedAttempt, PathCost, PlannerComparison};
+pub use compared::{ComparedAttempt, NoProblem, PathCost, PlannerComparison};
 pub use medians::PlannerMedians;

@@ -82,7 +82,11 @@ fn an_end_in_contact_is_no_problem_and_one_of_a_scenario_has_no_path() {
     let ends = [[2.4, 0.0], [3.1, 0.0]].map(|q| AnyRobot::of_kind("reach", &q).unwrap().1);
     let task = Task { start: ends[0], goal: ends[1], ..Task::round_the_post() };
     let comparison = PlannerComparison::of(task, vec![PlannerName::RrtConnect], 0..2);
-    assert!(matches!(comparison.run(|_| true), Err(NoPath::Problem(_))));
+    // the first planner that meets it is one that suits the robot
+    let unsuited = PlannerComparison { planners: vec![PlannerName::Bug1, PlannerName::Prm], ..comparison.clone() };
+    let none = unsuited.run(|_| true).unwrap_err();
+    assert_eq!((none.planner, none.seed), (PlannerName::Prm, Seed(0)));
+    assert!(matches!(none.reason, NoPath::Problem(_)) && none.to_string().contains("the post"), "{none}");
     let known = KnownProblem { number: 7, bucket: 3, optimal: 2.0 };
     let cases = vec![PlanCase { ends, problem: Some(known) }];
     let comparison = PlannerComparison { cases, ..comparison };
@@ -97,6 +101,16 @@ fn an_end_in_contact_is_no_problem_and_one_of_a_scenario_has_no_path() {
     assert_eq!(PlannerComparison::solved_within(&attempts, PlannerName::RrtConnect, u64::MAX), 0);
     let text = comparison.costs_csv(&attempts);
     assert_eq!(text, "planner,seed,iterations,length_rad,problem\n");
+    // of two problems one has a path, which says whose it is
+    let free = [[2.0, 0.0], [2.0, 0.3]].map(|q| AnyRobot::of_kind("reach", &q).unwrap().1);
+    let second = KnownProblem { number: 9, bucket: 4, optimal: 0.3 };
+    let cases = vec![comparison.cases[0], PlanCase { ends: free, problem: Some(second) }];
+    let comparison = PlannerComparison { cases, seeds: 5..6, ..comparison };
+    assert_eq!(comparison.count(), 2);
+    let attempts = comparison.run(|_| true).unwrap();
+    let text = comparison.costs_csv(&attempts);
+    assert_eq!(text.lines().nth(1), Some("rrt-connect,5,1,0.3,9"), "{text}");
+    assert!(comparison.csv(&attempts).lines().nth(2).unwrap().ends_with(",\"2,0\",\"2,0.3\",9,4,0.3"));
 }
 
 #[test]

@@ -306,7 +306,11 @@ fn a_planner_of_a_programs_own_is_chosen_and_stepped_where_it_suits_the_robot() 
     choose(&mut harness);
     assert!(harness.query_by_label("Mine").is_none());
     choose(&mut harness);
+    // neither another task nor the beginning of a lesson takes it from the list
     task(&mut harness, "Reach, Workbench");
+    interface_mut(&mut harness).begin(motion_lab_sim::manifest::Lesson::of("step_planner").unwrap());
+    harness.run_steps(3);
+    assert_eq!(plan(&harness).planner().id(), "rrt-connect");
     choose(&mut harness);
     harness.get_by_label("Mine");
 }

@@ -3,7 +3,7 @@
 use super::atlas::{FIRST_CELL, Mode};
 use super::dashboard::hand::drive;
 use super::dashboard::twins;
-use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, PlanState, UiState};
+use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, UiState};
 use motion_lab_core::configuration::{AnyConfiguration, RobotKind};
 use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::manifest::{HintTask, Lesson, Widget};
@@ -67,7 +67,7 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
             state.atlas.selected = None;
             state.atlas.mode = mode_of(task);
         }
-        Widget::Plan => state.plan = PlanState::default(),
+        Widget::Plan => state.plan.begin_anew(),
     }
 }
 

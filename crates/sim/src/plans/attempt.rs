@@ -118,6 +118,9 @@ pub trait PlanAttempt: Send {
     /// What the planner has done.
     fn effort(&self) -> Effort;
 
+    /// Whether there is a path.
+    fn has_path(&self) -> bool;
+
     /// The path's legs; none without a path.
     fn legs(&self) -> Vec<FileLeg>;
 
@@ -286,6 +289,10 @@ where
 
     fn effort(&self) -> Effort {
         self.planner.growth().effort()
+    }
+
+    fn has_path(&self) -> bool {
+        self.path.is_some() || self.unproven.is_some()
     }
 
     fn legs(&self) -> Vec<FileLeg> {

@@ -12,19 +12,19 @@ use super::named::PlannerName;
 use super::own::{LinePlanner, MadePlanner, OwnPlanner, PlannerMaker};
 
 /// No planner of straight lines plans for a car.
-const LINES: NoPath = NoPath::Unsuited("it plans straight lines, which no car can drive");
+pub(super) const LINES: NoPath = NoPath::Unsuited("it plans straight lines, which no car can drive");
 
 /// Makes planners for robots that go along straight lines of their charts.
 pub(super) trait Making {
     /// The planner of a problem.
-    fn make<R: OwnRobot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R>;
+    fn make<R: HasMaker<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R>;
 
     /// The planner of a car's problem.
     fn make_for_car(&self, problem: Problem<Hitch>) -> MadePlanner<Hitch, HitchArc>;
 }
 
 impl Making for PlannerName {
-    fn make<R: OwnRobot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
+    fn make<R: HasMaker<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
         Ok(match self {
             PlannerName::RrtConnect => Box::new(RrtConnect::new(problem)),
             PlannerName::Rrt => Box::new(Rrt::new(problem)),
@@ -61,7 +61,7 @@ impl Making for PlannerName {
 pub(super) struct ByLines<'a, P>(pub &'a P);
 
 impl<P: LinePlanner> Making for ByLines<'_, P> {
-    fn make<R: OwnRobot<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
+    fn make<R: HasMaker<Configuration: Chart>>(&self, problem: Problem<R>) -> MadePlanner<R> {
         self.0.for_problem(problem)
     }
 
@@ -71,24 +71,24 @@ impl<P: LinePlanner> Making for ByLines<'_, P> {
 }
 
 /// A robot that an [`OwnPlanner`] may be made for.
-pub(super) trait OwnRobot: Robot {
+pub(super) trait HasMaker: Robot {
     /// The maker of its planners, if there is one.
     fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>>;
 }
 
-impl OwnRobot for RustyDisc {
+impl HasMaker for RustyDisc {
     fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>> {
         own.disc
     }
 }
 
-impl OwnRobot for Reach<2> {
+impl HasMaker for Reach<2> {
     fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>> {
         own.arm
     }
 }
 
-impl OwnRobot for Reach<3> {
+impl HasMaker for Reach<3> {
     fn maker(own: &OwnPlanner) -> Option<PlannerMaker<Self>> {
         own.arm3
     }

@@ -184,6 +184,15 @@ impl PlannerName {
         }
     }
 
+    /// Whether it plans for no robot but a car.
+    pub const fn plans_for_cars_alone(self) -> bool {
+        match self.about().plans {
+            Plans::Cars => true,
+            Plans::Own(own) => own.car.is_some() && own.disc.is_none() && own.arm.is_none() && own.arm3.is_none(),
+            Plans::Lines | Plans::Discs | Plans::Planes => false,
+        }
+    }
+
     /// The number of iterations that it does unless more are allowed: some seconds' work.
     pub const fn iterations(self) -> u64 {
         match self.about().plans {

@@ -39,10 +39,10 @@ fn improve(
     iterations: u64,
     mut goes_on: impl FnMut(&dyn PlanAttempt) -> bool,
 ) -> Option<Result<(), NoPath>> {
-    if !goes_on(attempt) {
-        return None;
-    }
     loop {
+        if attempt.effort().iterations < iterations && !goes_on(attempt) {
+            return None;
+        }
         let bound = iterations.min(attempt.effort().iterations + ROUND);
         if let Err(refused) = attempt.improve(&Bounds::of_iterations(bound)) {
             return Some(Err(refused));
@@ -50,9 +50,6 @@ fn improve(
         let done = attempt.effort().iterations;
         if done < bound || done >= iterations {
             return Some(Ok(()));
-        }
-        if !goes_on(attempt) {
-            return None;
         }
     }
 }

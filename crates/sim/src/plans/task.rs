@@ -16,7 +16,7 @@ use motion_lab_core::worlds::{Resident, World};
 use super::attempt::{LegMotion, PlanAttempt, Trial};
 use super::bug1_sensor::Bug1Sensor;
 use super::checker_name::CheckerName;
-use super::making::{ByLines, Making, OwnRobot};
+use super::making::{ByLines, HasMaker, LINES, Making};
 use super::named::PlannerName;
 use super::own::LinePlanner;
 
@@ -130,6 +130,9 @@ impl Task {
         draws_samples: bool,
         seed: Seed,
     ) -> Result<Box<dyn PlanAttempt>, NoPath> {
+        if let AnyRobot::Hitch(_) = self.robot {
+            return Err(LINES);
+        }
         self.with_clearance(draws_samples).made_by(&ByLines(planner), seed)
     }
 
@@ -226,7 +229,7 @@ impl Task {
         seed: Seed,
     ) -> Result<Box<dyn PlanAttempt>, NoPath>
     where
-        R: OwnRobot<Configuration: Chart + Into<AnyConfiguration>>,
+        R: HasMaker<Configuration: Chart + Into<AnyConfiguration>>,
         LinePath<R>: PlayablePath,
     {
         let planner = making.make(self.problem(robot.clone(), ends, seed)?)?;

@@ -2,13 +2,12 @@
 
 use std::path::Path;
 
-use motion_lab_core::planning::NoPath;
 use motion_lab_sim::capture::{proven, unit};
 use motion_lab_sim::plans::{PlannerName, Task};
 
 use super::answer::PlanAnswer;
 use super::args::PlanArgs;
-use crate::batch::{ComparedAttempt, PlanCase, PlannerComparison, PlannerMedians};
+use crate::batch::{ComparedAttempt, NoProblem, PlanCase, PlannerComparison, PlannerMedians};
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::interrupt;
 use crate::cli::support::output::write_file;
@@ -43,7 +42,7 @@ pub fn compare(args: &PlanArgs, task: Task, cases: Vec<PlanCase>, data: &mut Dat
     drop(progress);
     let attempts = match made {
         Ok(attempts) => attempts,
-        Err(reason) => return none(args, &comparison, &reason, data),
+        Err(none) => return no_problem(args, &comparison, &none, data),
     };
     let lines = comparison.medians(&attempts);
     if args.json {
@@ -67,11 +66,17 @@ pub fn compare(args: &PlanArgs, task: Task, cases: Vec<PlanCase>, data: &mut Dat
 }
 
 /// Says that the problem is none: an end in contact is so for every planner and every seed.
-fn none(args: &PlanArgs, comparison: &PlannerComparison, reason: &NoPath, data: &mut Data) -> Result<Outcome, Failure> {
-    if !args.json {
+fn no_problem(
+    args: &PlanArgs,
+    comparison: &PlannerComparison,
+    none: &NoProblem,
+    data: &mut Data,
+) -> Result<Outcome, Failure> {
+    let NoProblem { planner, seed, reason } = none;
+    if args.json {
+        data.json(&PlanAnswer::of_none(&comparison.task, *planner, seed.0, reason))?;
+    } else {
         say(format!("{}\n{}", super::advice::in_words(&reason.to_string()), super::advice::next(reason)));
-    } else if let Some(planner) = comparison.planners.first() {
-        data.json(&PlanAnswer::of_none(&comparison.task, *planner, comparison.seeds.start, reason))?;
     }
     Ok(Outcome::NoPath)
 }

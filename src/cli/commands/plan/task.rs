@@ -40,7 +40,7 @@ pub fn attempt(task: &Task, name: PlannerName, seed: Seed) -> Result<Result<Box<
 /// Refuses a planner of straight lines for a car, and one of cars for another robot.
 pub fn fits(name: PlannerName, robot: &AnyRobot) -> Result<(), Failure> {
     let is_car = matches!(robot, AnyRobot::Hitch(_));
-    let is_cars = name == PlannerName::HybridAStar;
+    let is_cars = name.plans_for_cars_alone();
     if let (true, Err(reason)) = (is_car != is_cars, name.suits(robot)) {
         let instead = PlannerName::default_for(robot).id();
         return Err(Failure::usage(format!("{}: {reason}", name.id()), format!("Use --planner {instead}.")));

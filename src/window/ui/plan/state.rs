@@ -119,6 +119,11 @@ impl PlanState {
         state
     }
 
+    /// The chapter's question, as the widget begins; the planners to choose from stay.
+    pub fn begin_anew(&mut self) {
+        *self = PlanState { planners: std::mem::take(&mut self.planners), ..Self::default() };
+    }
+
     /// Another task. The planner stays if it suits the robot, pace and seed stay.
     pub fn take(&mut self, task: Task) {
         let planner = if self.planner.suits(&task.robot).is_ok() { Some(self.planner) } else { None };

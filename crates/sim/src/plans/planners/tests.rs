@@ -38,6 +38,11 @@ static OF_DISCS: OwnPlanner = OwnPlanner {
     disc: Some(|problem| Ok(Box::new(RrtConnect::new(problem)))),
     ..OwnPlanner::new("my-disc", "Discs", "As the lab's")
 };
+static OF_THREE_LINKS: OwnPlanner = OwnPlanner {
+    arm3: Some(|problem| Ok(Box::new(RrtConnect::new(problem)))),
+    iterations: 77,
+    ..OwnPlanner::new("my-three", "Three", "As the lab's")
+};
 static REFUSES: OwnPlanner = OwnPlanner {
     arm: Some(|_| Err(NoPath::Unsuited("it has no patience"))),
     ..OwnPlanner::new("my-no", "No", "Never")
@@ -118,6 +123,17 @@ fn each_is_made_for_the_robots_that_it_has_a_maker_for() {
     assert_eq!(suited(&CONNECTS), [true, true, true, false, false]);
     assert_eq!(suited(&DRIVES), [false, false, false, true, true]);
     assert_eq!(suited(&OF_DISCS), [true, false, false, false, false]);
+    assert_eq!(suited(&OF_THREE_LINKS), [false, false, true, false, false]);
+    // each is made for a robot, and has a name
+    let mut planners = Planners::default();
+    for own in [&CONNECTS, &DRIVES, &OF_DISCS, &OF_THREE_LINKS, &REFUSES] {
+        planners.register(own).unwrap();
+        assert_eq!(PlannerName::Own(own).plans_for_cars_alone(), own.id == "my-drive", "{}", own.id);
+    }
+    assert_eq!(planners.named("my-three").unwrap().iterations(), 77);
+    let for_cars: Vec<&str> =
+        PlannerName::ALL.into_iter().filter(|n| n.plans_for_cars_alone()).map(PlannerName::id).collect();
+    assert_eq!(for_cars, ["hybrid-a-star"]);
     let refused = tasks()[1].attempt(PlannerName::Own(&REFUSES), Seed(1)).err();
     assert_eq!(refused, Some(NoPath::Unsuited("it has no patience")));
 }
