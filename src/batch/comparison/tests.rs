@@ -1,4 +1,5 @@
 use motion_lab_core::planning::NoPath;
+use motion_lab_core::random::Seed;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::plans::{PathLengths, PlannerName, Task};
