@@ -32,6 +32,7 @@ impl CheckedAxis {
                 | (Over::Range(..) | Over::Values(_), ValueForm::Whole(_))
                 | (Over::Names(_), ValueForm::Name)
                 | (Over::Starts(_), ValueForm::Start)
+                | (Over::Goals(_), ValueForm::Goal)
                 | (Over::Problems(_), ValueForm::Problem)
         );
         if !fits {
@@ -98,8 +99,8 @@ impl CheckedAxis {
             Over::Names(names) => AxisValue::Name(names[at(names.len())].clone()),
             // a scenario has a problem
             Over::Problems(file) => AxisValue::Name(file.clone()),
-            Over::Starts(starts) => {
-                AxisValue::Start(starts[at(starts.len())].iter().map(|coordinate| coordinate.value()).collect())
+            Over::Starts(all) | Over::Goals(all) => {
+                AxisValue::Configuration(all[at(all.len())].iter().map(|coordinate| coordinate.value()).collect())
             }
         }
     }
@@ -116,9 +117,9 @@ impl CheckedAxis {
     /// What the writer of its values may have meant by angles of more than a turn, in the first that is one.
     pub fn turns(&self) -> Option<String> {
         match (&*self.over, &self.parameter) {
-            (Over::Starts(starts), Parameter::Robot { kind, .. }) => {
+            (Over::Starts(all), Parameter::Robot { kind, .. }) | (Over::Goals(all), Parameter::Goal { kind }) => {
                 let lengths = RobotKind::of(kind)?.lengths;
-                starts.iter().find_map(|start| WrittenCoordinate::all_turns_in_ron(start, lengths).next())
+                all.iter().find_map(|start| WrittenCoordinate::all_turns_in_ron(start, lengths).next())
             }
             (over, parameter) if parameter.form() == ValueForm::Number("rad") => {
                 over.written().find_map(WrittenNumber::turns)

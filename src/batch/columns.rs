@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::axis::CheckedAxis;
 use super::csv;
-use super::parameter::{Parameter, RobotParameter, ValueForm};
+use super::parameter::ValueForm;
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_sim::export::csv_cell;
 
@@ -77,13 +77,9 @@ fn of_axis(axis: &CheckedAxis) -> Vec<Column> {
         ValueForm::Whole(unit) => vec![column(name, CellKind::Whole, unit, about)],
         ValueForm::Number(unit) => vec![column(name, CellKind::Number, unit, about)],
         ValueForm::Name => vec![column(name, CellKind::Text, "", about)],
-        ValueForm::Start => {
-            let kind = match &axis.parameter {
-                Parameter::Robot { kind, of: RobotParameter::Start, .. } => RobotKind::of(kind),
-                _ => None,
-            };
-            coordinates(kind).map(|(c, unit)| column(format!("{name}.{c}"), CellKind::Number, unit, about)).collect()
-        }
+        ValueForm::Start | ValueForm::Goal => coordinates(axis.parameter.configured())
+            .map(|(c, unit)| column(format!("{name}.{c}"), CellKind::Number, unit, about))
+            .collect(),
         ValueForm::Problem => OF_PROBLEM.map(|(end, kind, unit, about)| column(end, kind, unit, about)).to_vec(),
     }
 }
@@ -117,7 +113,12 @@ pub(super) fn columns(
     let mut columns = vec![
         column("row", Whole, "", "number of the run in the sweep, from 0"),
         column("seed", Whole, "", "seed of the run"),
-        column("ticks", Whole, "ticks", "length of the run; 20 are a second"),
+        column(
+            "ticks",
+            Whole,
+            "ticks",
+            "length of the run; 20 are a second; empty where a path says it, or no run plays it",
+        ),
     ];
     for axis in axes.iter().flat_map(of_axis) {
         // seed and length have their columns whether they are varied or not
@@ -145,7 +146,12 @@ pub(super) fn columns(
             column("edges", Whole, "", "edges that the planner asked about"),
             column("planned_path", Number, unit, "length of the planned path; empty without any"),
             column("planned_clearance", Number, "m", "clearance proven along it; empty without an obstacle"),
-            column("planned_time", Number, "s", "when the robot stands at its end; empty if it can't be played"),
+            column(
+                "planned_time",
+                Number,
+                "s",
+                "when the robot stands at its end; empty if it can't be played, or no run plays it",
+            ),
         ]);
     }
     columns.push(column("digest", Text, "", "digest of the run, 32 hexadecimal digits"));

@@ -94,9 +94,11 @@ pub enum SweepProblem {
     /// A parameter that changes nothing in any run of the study.
     #[error("it would change nothing: {0}")]
     Idle(String),
-    /// A start with other coordinates than any robot of its name has.
-    #[error("start {index}: {reason}")]
-    Start {
+    /// A start or a goal with other coordinates than any robot of its name has.
+    #[error("{end} {index}: {reason}")]
+    End {
+        /// `start` or `goal`.
+        end: &'static str,
         /// Its number in the list, from 0.
         index: usize,
         /// What is wrong with it.

@@ -44,9 +44,9 @@ pub use comparison::{ComparedAttempt, KnownProblem, NoProblem, PathCost, PlanCas
 pub use error::{MAX_RUNS, PLAN_VERSION, StudyError, SweepProblem};
 pub use gatherer::RowGatherer;
 pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};
-pub use planning::{PlannedPath, Planning, PlanningResult};
+pub use planning::{PlannedPath, Planning, PlanningResult, RunLength};
 pub use row::{RowValue, RunRow};
 pub use shard::{Shard, ShardError};
-pub use study::{RunInputs, RunSetup, Study};
+pub use study::{RunInputs, RunSetup, Study, VariedAxis};
 pub use study_file::StudyFile;
 pub use table::{TableError, TableFile, TableWriter};

@@ -15,7 +15,15 @@ pub(super) enum Parameter {
         kind: String,
         of: RobotParameter,
     },
+    /// Where the goal's robot should go.
+    Goal {
+        /// The robot's kind in the world that is the first to have it; empty in a study without a goal.
+        kind: String,
+    },
 }
+
+/// The name of the goal as a parameter.
+const GOAL: &str = "goal";
 
 /// A parameter of the whole run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -60,6 +68,7 @@ pub(super) enum ValueForm {
     Number(&'static str),
     Name,
     Start,
+    Goal,
     Problem,
 }
 
@@ -70,6 +79,7 @@ impl ValueForm {
             ValueForm::Number(_) => "Values([...]), Steps(FROM, TO, COUNT), Uniform(FROM, TO) or Range(FROM, TO)",
             ValueForm::Name => "Names([...])",
             ValueForm::Start => "Starts([[...], [...]])",
+            ValueForm::Goal => "Goals([[...], [...]])",
             ValueForm::Problem => "Problems(\"FILE.scen\")",
         }
     }
@@ -114,19 +124,23 @@ const SENSOR: [(&str, ValueForm); 3] =
     [("rays", ValueForm::Whole("")), ("range", ValueForm::Number("m")), ("field_of_view", ValueForm::Number("rad"))];
 
 impl Parameter {
-    /// The parameter of this name; else what there is, in words.
-    pub fn named(name: &str, worlds: &[&World]) -> Result<Self, String> {
+    /// The parameter of this name; else what there is, in words. `goal` is the name of the goal's robot.
+    pub fn named(name: &str, worlds: &[&World], goal: Option<&str>) -> Result<Self, String> {
         if let Some((_, of, _)) = OF_RUN.iter().find(|(known, ..)| *known == name) {
             return Ok(Parameter::Run(*of));
         }
         let robots = || worlds.iter().flat_map(|world| &world.robots);
+        if name == GOAL {
+            let resident = robots().find(|known| Some(known.name.as_str()) == goal);
+            return Ok(Parameter::Goal { kind: resident.map_or(String::new(), |resident| resident.kind.clone()) });
+        }
         let of = |resident: &Resident| {
             let number = name.strip_prefix(resident.name.as_str())?.strip_prefix('.')?;
             let of = RobotParameter::named(number, resident)?;
             Some(Parameter::Robot { robot: resident.name.clone(), kind: resident.kind.clone(), of })
         };
         robots().find_map(of).ok_or_else(|| {
-            let of_run: Vec<&str> = OF_RUN.iter().map(|(name, ..)| *name).collect();
+            let of_run: Vec<&str> = OF_RUN.iter().map(|(name, ..)| *name).chain([GOAL]).collect();
             let named = |r: &&Resident| name.strip_prefix(r.name.as_str()).is_some_and(|rest| rest.starts_with('.'));
             match robots().find(named) {
                 Some(resident) => RobotParameter::in_words(resident),
@@ -138,8 +152,17 @@ impl Parameter {
     /// The parameter that is nearly called so.
     pub fn meant(name: &str, worlds: &[&World]) -> Option<String> {
         let of_robots = worlds.iter().flat_map(|world| &world.robots).flat_map(RobotParameter::names);
-        let all: Vec<String> = OF_RUN.iter().map(|(known, ..)| (*known).to_owned()).chain(of_robots).collect();
+        let of_run = OF_RUN.iter().map(|(known, ..)| *known).chain([GOAL]).map(str::to_owned);
+        let all: Vec<String> = of_run.chain(of_robots).collect();
         nearest(name, all.iter().map(String::as_str)).map(str::to_owned)
+    }
+
+    /// The kind of the robot whose configurations its values are; `None` where they are something else.
+    pub fn configured(&self) -> Option<&'static RobotKind> {
+        match self {
+            Parameter::Robot { kind, of: RobotParameter::Start, .. } | Parameter::Goal { kind } => RobotKind::of(kind),
+            _ => None,
+        }
     }
 
     /// Its name: `Rusty.noise.sigma_hit`.
@@ -148,6 +171,7 @@ impl Parameter {
             Parameter::Run(of) => {
                 OF_RUN.iter().find(|(_, known, _)| known == of).map_or("", |(name, ..)| name).to_owned()
             }
+            Parameter::Goal { .. } => GOAL.to_owned(),
             Parameter::Robot { robot, kind, of } => match of {
                 RobotParameter::Start => format!("{robot}.start"),
                 RobotParameter::Coordinate(i) => {
@@ -191,6 +215,9 @@ impl Parameter {
             Parameter::Run(RunParameter::Problem) if !there.goal => {
                 Some("the study has no goal, which says whose problems they are".to_owned())
             }
+            Parameter::Goal { .. } => {
+                (!there.goal).then(|| "the study has no goal, which says whose goals they are".to_owned())
+            }
             Parameter::Run(RunParameter::Script) if there.planner => Some("the planner makes the script".to_owned()),
             Parameter::Run(_) => None,
             Parameter::Robot { robot, kind, of } => {
@@ -215,6 +242,7 @@ impl Parameter {
             Parameter::Run(of) => {
                 OF_RUN.iter().find(|(_, known, _)| known == of).map_or(ValueForm::Name, |(_, _, form)| *form)
             }
+            Parameter::Goal { .. } => ValueForm::Goal,
             Parameter::Robot { kind, of, .. } => match of {
                 RobotParameter::Start => ValueForm::Start,
                 RobotParameter::Coordinate(i) => {
@@ -286,11 +314,11 @@ impl RobotParameter {
         let number = match value {
             AxisValue::Number(x) => *x,
             AxisValue::Whole(n) => *n as f64,
-            AxisValue::Start(_) | AxisValue::Name(_) | AxisValue::Problem(_) => 0.0,
+            AxisValue::Configuration(_) | AxisValue::Name(_) | AxisValue::Problem(_) => 0.0,
         };
         match self {
             RobotParameter::Start => {
-                if let AxisValue::Start(start) = value {
+                if let AxisValue::Configuration(start) = value {
                     resident.start.clone_from(start);
                 }
                 check_start(resident)

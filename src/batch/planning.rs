@@ -19,6 +19,27 @@ pub struct Planning {
     pub clearance: Option<f64>,
 }
 
+/// How long a run is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunLength {
+    /// This many ticks.
+    Ticks(u64),
+    /// As many as the script that plays the planner's path.
+    Planned,
+    /// There is a path alone, and no run that plays it.
+    Unsimulated,
+}
+
+impl RunLength {
+    /// The number of ticks that is said; `None` where a path says it, or nothing is run.
+    pub fn ticks(self) -> Option<u64> {
+        match self {
+            RunLength::Ticks(ticks) => Some(ticks),
+            RunLength::Planned | RunLength::Unsimulated => None,
+        }
+    }
+}
+
 /// What came of planning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlanningResult {
@@ -37,7 +58,7 @@ pub struct PlannedPath {
     pub length: f64,
     /// The clearance proven along it, metres; infinity in an empty world.
     pub clearance: f64,
-    /// When the robot stands at its end, seconds; `None` where it can't be played.
+    /// When the robot stands at its end, seconds; `None` where it can't be played, or is not.
     pub time: Option<f64>,
 }
 

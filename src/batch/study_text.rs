@@ -32,7 +32,7 @@ pub(super) struct StudyText {
     #[serde(default)]
     pub seed: Option<u64>,
     #[serde(default)]
-    pub ticks: Option<u64>,
+    pub ticks: Option<TicksText>,
     #[serde(default)]
     pub sensor: Option<RunSensorText>,
     /// Rovers without the run's range sensor.
@@ -51,6 +51,21 @@ impl StudyText {
     pub fn keeps(&self, robot: &str) -> bool {
         self.robots.is_empty() || self.robots.iter().any(|kept| kept == robot)
     }
+}
+
+/// The length of a run, as written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "a number of ticks, or Planned")]
+pub(super) enum TicksText {
+    Ticks(u64),
+    Named(NamedLength),
+}
+
+/// A length by a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum NamedLength {
+    /// As long as the script that plays the planner's path.
+    Planned,
 }
 
 /// A planner of `motion-lab plan`, and what it may do.

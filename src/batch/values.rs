@@ -107,6 +107,8 @@ pub(super) enum Over {
     /// Names: built-in worlds, or files.
     Names(Vec<String>),
     Starts(Vec<Vec<WrittenCoordinate>>),
+    /// Configurations of the goal's robot.
+    Goals(Vec<Vec<WrittenCoordinate>>),
     /// The problems of a scenario's file, relative to the study's folder.
     Problems(String),
 }
@@ -119,7 +121,7 @@ pub(super) enum AxisValue {
     Number(f64),
     Name(String),
     /// The coordinates of a configuration.
-    Start(Vec<f64>),
+    Configuration(Vec<f64>),
     Problem(NumberedProblem),
 }
 
@@ -157,10 +159,15 @@ impl NumberedProblem {
 }
 
 impl Over {
-    /// The numbers that are written, but those of starts.
+    /// The configurations that are written.
+    pub fn configurations(&self) -> &[Vec<WrittenCoordinate>] {
+        if let Over::Starts(written) | Over::Goals(written) = self { written } else { &[] }
+    }
+
+    /// The numbers that are written, but those of configurations.
     pub fn written(&self) -> impl Iterator<Item = WrittenNumber> {
         let (list, ends) = match self {
-            Over::Range(..) | Over::Names(_) | Over::Starts(_) | Over::Problems(_) => (&[][..], None),
+            Over::Range(..) | Over::Names(_) | Over::Starts(_) | Over::Goals(_) | Over::Problems(_) => (&[][..], None),
             Over::Values(values) => (&values[..], None),
             Over::Steps(from, to, _) | Over::Uniform(from, to) => (&[][..], Some([*from, *to])),
         };
@@ -169,9 +176,8 @@ impl Over {
 
     /// The numbers that are written.
     pub fn numbers(&self) -> impl Iterator<Item = f64> {
-        let starts = if let Over::Starts(starts) = self { &starts[..] } else { &[] };
-        let of_starts = starts.iter().flatten().map(|coordinate| coordinate.value());
-        self.written().map(WrittenNumber::real).chain(of_starts)
+        let coordinates = self.configurations().iter().flatten().map(|coordinate| coordinate.value());
+        self.written().map(WrittenNumber::real).chain(coordinates)
     }
 
     /// Their form, in words.
@@ -181,6 +187,7 @@ impl Over {
             Over::Values(_) | Over::Steps(..) | Over::Uniform(..) => "numbers",
             Over::Names(_) => "names",
             Over::Starts(_) => "start configurations",
+            Over::Goals(_) => "goal configurations",
             Over::Problems(_) => "problems",
         }
     }
@@ -193,7 +200,7 @@ impl Over {
             Over::Steps(_, _, count) => Some(*count),
             Over::Uniform(..) | Over::Problems(_) => None,
             Over::Names(names) => Some(names.len() as u64),
-            Over::Starts(starts) => Some(starts.len() as u64),
+            Over::Starts(_) | Over::Goals(_) => Some(self.configurations().len() as u64),
         }
     }
 }

@@ -3,6 +3,7 @@
 mod care;
 pub mod planner;
 mod problems;
+mod report;
 mod trust;
 
 use std::fs;

@@ -36,7 +36,7 @@ def compare(
     seeds: Iterable[int] = range(100),
     **how: Any,
 ) -> list[dict[str, Any]]:
-    """A row for each planner and seed: what it did, the path's length, in the path's unit, and clearance, or the reason.
+    """A row for each planner and seed: what it did, the path's length in its own unit and clearance, or the reason.
 
     The other arguments are those of ``plan``, and what ``plan`` raises is raised, but for NoPath. A class is called for
     a planner of each attempt. Length and clearance are None without a path, the reason is with one.

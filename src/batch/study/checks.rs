@@ -7,7 +7,7 @@ use crate::batch::axis::{CheckedAxis, Scenarios};
 use crate::batch::columns::{MAX_ROBOT_COLUMNS, RobotColumns};
 use crate::batch::error::SweepProblem;
 use crate::batch::parameter::{Parameter, RobotParameter, RunParameter, Sources};
-use crate::batch::study_text::{GoalText, StudyItem, StudyText};
+use crate::batch::study_text::{GoalText, NamedLength, StudyItem, StudyText, TicksText};
 use crate::batch::values::Over;
 use motion_lab_core::configuration::{RobotKind, Sizes, WrittenCoordinate};
 use motion_lab_core::names::{hint, nearest};
@@ -51,7 +51,7 @@ pub fn check_robots(study: &StudyText, worlds: &[&World]) -> Result<(), (StudyIt
     if let Some(wrong) = within.iter().find(|tolerance| **tolerance < 0.0) {
         return Err((StudyItem::Goal, SweepProblem::Tolerance(*wrong)));
     }
-    if study.axes.iter().any(|axis| matches!(*axis.over, Over::Problems(_))) {
+    if study.axes.iter().any(|axis| matches!(*axis.over, Over::Problems(_) | Over::Goals(_))) {
         // each row has a goal of its own
         return Ok(());
     }
@@ -82,7 +82,9 @@ fn check_goal_somewhere(robot: &str, at: &[f64], worlds: &[&World]) -> Result<()
 /// Checks that a study with a planner says who goes where, and nothing else that drives its robot.
 pub fn check_planner(study: &StudyText) -> Result<(), (StudyItem, SweepProblem)> {
     let refused = |reason| Err((StudyItem::Planner, SweepProblem::Planner(reason)));
+    let is_planned = study.ticks == Some(TicksText::Named(NamedLength::Planned));
     match &study.planner {
+        None if is_planned => refused("there is none whose path could say the ticks"),
         Some(_) if study.script.is_some() => refused("the study has a script too, and its robot follows one of them"),
         Some(_) if study.goal.is_none() => refused("it needs a goal, which says what robot goes where"),
         _ => Ok(()),
@@ -113,7 +115,8 @@ pub fn make_axes(
     };
     for (i, text) in study.axes.iter().enumerate() {
         let refused = |problem| (StudyItem::Axis(i), problem);
-        let parameter = Parameter::named(&text.vary, worlds).map_err(|there| {
+        let goal = study.goal.as_ref().map(|goal| goal.robot.as_str());
+        let parameter = Parameter::named(&text.vary, worlds, goal).map_err(|there| {
             let meant = Parameter::meant(&text.vary, worlds);
             refused(SweepProblem::Parameter(there + &hint(meant.as_deref())))
         })?;
@@ -130,14 +133,17 @@ pub fn make_axes(
         if let (Parameter::Robot { robot, of: RobotParameter::Start, .. }, Over::Starts(starts)) =
             (&axis.parameter, &*text.over)
         {
-            check_starts(starts, &robots, robot).map_err(refused)?;
+            check_ends("start", starts, &robots, robot).map_err(refused)?;
+        }
+        if let (Parameter::Goal { .. }, Over::Goals(goals), Some(robot)) = (&axis.parameter, &*text.over, goal) {
+            check_ends("goal", goals, &robots, robot).map_err(refused)?;
         }
         axes.push(axis);
     }
     Ok(axes)
 }
 
-/// Whether two parameters vary the same, wholly or in part. A problem is also where the goal's robot starts.
+/// Whether two parameters vary the same, wholly or in part. A problem is also where the goal's robot starts, and goes.
 fn overlap(goal: Option<&GoalText>, a: &Parameter, b: &Parameter) -> bool {
     use RobotParameter::{Coordinate, Start};
     let is_start = |of: &Parameter| match of {
@@ -145,12 +151,18 @@ fn overlap(goal: Option<&GoalText>, a: &Parameter, b: &Parameter) -> bool {
         _ => false,
     };
     let is_problem = |of: &Parameter| *of == Parameter::Run(RunParameter::Problem);
-    a.overlaps(b) || (is_problem(a) && is_start(b)) || (is_start(a) && is_problem(b))
+    let is_end = |of: &Parameter| is_start(of) || matches!(of, Parameter::Goal { .. });
+    a.overlaps(b) || (is_problem(a) && is_end(b)) || (is_end(a) && is_problem(b))
 }
 
-/// Checks that each start has the number of coordinates of some robot of this name.
-fn check_starts(starts: &[Vec<WrittenCoordinate>], robots: &[&Resident], robot: &str) -> Result<(), SweepProblem> {
-    for (index, written) in starts.iter().enumerate() {
+/// Checks that each start or goal has the number of coordinates of some robot of this name.
+fn check_ends(
+    end: &'static str,
+    all: &[Vec<WrittenCoordinate>],
+    robots: &[&Resident],
+    robot: &str,
+) -> Result<(), SweepProblem> {
+    for (index, written) in all.iter().enumerate() {
         let reason = |known: &&Resident| {
             let lengths = RobotKind::of(&known.kind).map_or(0, |kind| kind.lengths);
             let start = match WrittenCoordinate::values(written, lengths) {
@@ -165,7 +177,7 @@ fn check_starts(starts: &[Vec<WrittenCoordinate>], robots: &[&Resident], robot: 
         };
         let reasons: Option<Vec<String>> = robots.iter().filter(|known| known.name == robot).map(reason).collect();
         if let Some(reason) = reasons.and_then(|reasons| reasons.into_iter().next()) {
-            return Err(SweepProblem::Start { index, reason });
+            return Err(SweepProblem::End { end, index, reason });
         }
     }
     Ok(())

@@ -1,8 +1,8 @@
 //! `RunDraft`, the parameters of a whole run while its axes get their values.
 
 use crate::batch::parameter::RunParameter;
-use crate::batch::planning::Planning;
-use crate::batch::study_text::{GoalText, PlannerText, StudyText, WarehouseText};
+use crate::batch::planning::{Planning, RunLength};
+use crate::batch::study_text::{GoalText, NamedLength, PlannerText, StudyText, TicksText, WarehouseText};
 use crate::batch::values::AxisValue;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
@@ -13,7 +13,7 @@ use motion_lab_sim::tour::BOOK_SEED;
 /// What the parameters of a whole run change.
 pub struct RunDraft {
     pub seed: u64,
-    pub ticks: u64,
+    pub length: RunLength,
     pub script: Option<String>,
     pub planner: Option<PlannerText>,
     pub worlds: Vec<String>,
@@ -30,7 +30,12 @@ impl RunDraft {
         });
         RunDraft {
             seed: text.seed.unwrap_or(BOOK_SEED.0),
-            ticks: text.ticks.unwrap_or(1200),
+            length: match (text.ticks, &text.planner) {
+                (Some(TicksText::Ticks(ticks)), _) => RunLength::Ticks(ticks),
+                (Some(TicksText::Named(NamedLength::Planned)), _) => RunLength::Planned,
+                (None, Some(_)) => RunLength::Unsimulated,
+                (None, None) => RunLength::Ticks(1200),
+            },
             script: text.script.clone(),
             planner: text.planner.clone(),
             worlds: text.worlds.clone(),
@@ -45,7 +50,7 @@ impl RunDraft {
         let no_sensor = || "the study has no sensor".to_owned();
         match (of, value) {
             (RunParameter::Seed, AxisValue::Whole(n)) => self.seed = *n,
-            (RunParameter::Ticks, AxisValue::Whole(n)) => self.ticks = *n,
+            (RunParameter::Ticks, AxisValue::Whole(n)) => self.length = RunLength::Ticks(*n),
             (RunParameter::Script, AxisValue::Name(name)) => self.script = Some(name.clone()),
             (RunParameter::World, AxisValue::Name(name)) => self.worlds = vec![name.clone()],
             (RunParameter::Rays, AxisValue::Whole(n)) => {

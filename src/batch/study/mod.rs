@@ -3,6 +3,7 @@
 mod checks;
 mod draft;
 mod problems;
+mod varied;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,11 +11,13 @@ use std::sync::Arc;
 use super::axis::{CheckedAxis, Scenarios};
 use super::columns::{Column, RobotColumns, columns, heading, table_heading};
 use super::error::{PLAN_VERSION, SweepProblem};
-use super::parameter::{Parameter, RobotParameter, RunParameter};
-use super::planning::{Planning, PlanningResult};
+use super::parameter::{Parameter, RunParameter};
+use super::planning::{Planning, PlanningResult, RunLength};
 use super::row::{RowValue, RunRow};
 use super::study_text::{Bundle, FORMAT, GoalText, StudyItem, StudyText, digest_of};
 use super::values::AxisValue;
+pub use varied::VariedAxis;
+
 use checks::{check, check_planner, check_robots, goal_checks, make_axes, planned_unit, robot_columns};
 use draft::{RunDraft, generated};
 use motion_lab_core::configuration::{Kinds, RobotKind, WrittenCoordinate};
@@ -33,8 +36,10 @@ const MAX_TRIED: u64 = 1000;
 pub struct RunSetup {
     /// The seed.
     pub seed: Seed,
-    /// The configuration.
+    /// The configuration; without ticks where a path says how many.
     pub config: TourConfig,
+    /// How long it is.
+    pub length: RunLength,
     /// What drives it.
     pub inputs: RunInputs,
 }
@@ -180,6 +185,17 @@ impl Study {
         self.axes.iter().map(|axis| (axis.parameter.name(), axis.len()))
     }
 
+    /// The axes of two to twelve values, in their order.
+    pub fn varied(&self) -> Vec<VariedAxis> {
+        self.axes.iter().enumerate().filter_map(|(number, axis)| VariedAxis::of(number, axis)).collect()
+    }
+
+    /// For each of these axes, the number of the value that a row has among [`VariedAxis::values`].
+    pub fn values_of(&self, axes: &[VariedAxis], row: u64) -> Vec<usize> {
+        let values = self.values(row);
+        axes.iter().map(|axis| axis.number_of(&values)).collect()
+    }
+
     pub(super) fn goal(&self) -> Option<&GoalText> {
         self.text.goal.as_ref()
     }
@@ -216,11 +232,11 @@ impl Study {
                 of.apply(resident, value).map_err(|reason| format!("{}: {reason}", axis.parameter.name()))?;
             }
         }
-        let goal = match self.goal() {
+        let goal = match self.varied_goal(&values) {
             Some(goal) => {
-                let problem = problems::placed(goal, &values, &worlds)?;
-                problems::start_at(goal, problem, &mut worlds);
-                Some(problems::goal_at(goal, problem))
+                let problem = problems::placed(&goal, &values, &worlds)?;
+                problems::start_at(&goal, problem, &mut worlds);
+                Some(problems::goal_at(&goal, problem))
             }
             None => None,
         };
@@ -243,17 +259,30 @@ impl Study {
                 RunInputs::Script(script.clone())
             }
         };
-        let config = TourConfig { worlds, ticks: draft.ticks, sensor: draft.sensor };
+        let ticks = draft.length.ticks().unwrap_or(0);
+        let config = TourConfig { worlds, ticks, sensor: draft.sensor };
         config.validate().map_err(|error| error.to_string())?;
-        Ok(RunSetup { seed: Seed(draft.seed), config, inputs })
+        Ok(RunSetup { seed: Seed(draft.seed), config, length: draft.length, inputs })
+    }
+
+    /// The goal with the configuration that a row gives it.
+    fn varied_goal(&self, values: &[AxisValue]) -> Option<GoalText> {
+        let mut goal = self.goal()?.clone();
+        for (axis, value) in self.axes.iter().zip(values) {
+            if let (Parameter::Goal { .. }, AxisValue::Configuration(at)) = (&axis.parameter, value) {
+                goal.at = at.iter().copied().map(WrittenCoordinate::number).collect();
+            }
+        }
+        Some(goal)
     }
 
     /// The goal of a row's run in its worlds.
     pub(super) fn goal_of(&self, row: u64, worlds: &[World]) -> Option<GoalText> {
-        let goal = self.goal()?;
+        let values = self.values(row);
+        let goal = self.varied_goal(&values)?;
         // where the map is another the run could not be
-        let problem = problems::placed(goal, &self.values(row), worlds).ok().flatten();
-        Some(problems::goal_at(goal, problem))
+        let problem = problems::placed(&goal, &values, worlds).ok().flatten();
+        Some(problems::goal_at(&goal, problem))
     }
 
     /// Checks that there is a run that can be, in studies of at most [`MAX_TRIED`] runs.
@@ -294,17 +323,14 @@ impl Study {
                 AxisValue::Number(x) => cells.push(RowValue::Number(x)),
                 AxisValue::Name(name) => cells.push(RowValue::text(name)),
                 AxisValue::Problem(problem) => cells.extend(problems::cells(&problem, self.goal(), &worlds)),
-                AxisValue::Start(start) => {
-                    let width = match &axis.parameter {
-                        Parameter::Robot { kind, of: RobotParameter::Start, .. } => RobotKind::of(kind),
-                        _ => None,
-                    };
-                    let width = width.map_or(0, |kind| kind.coordinates.len());
-                    cells.extend((0..width).map(|i| RowValue::finite(start.get(i).copied())));
+                AxisValue::Configuration(q) => {
+                    let width = axis.parameter.configured().map_or(0, |kind| kind.coordinates.len());
+                    cells.extend((0..width).map(|i| RowValue::finite(q.get(i).copied())));
                 }
             }
         }
-        let head = [row, draft.seed, draft.ticks].map(RowValue::Whole);
+        let ticks = draft.length.ticks().map_or(RowValue::Empty, RowValue::Whole);
+        let head = [RowValue::Whole(row), RowValue::Whole(draft.seed), ticks];
         head.into_iter().chain(cells).collect()
     }
 
@@ -335,6 +361,11 @@ impl Study {
         cells.push(RowValue::text(reason));
         cells.resize(self.columns.len(), RowValue::Empty);
         RunRow { row, cells }
+    }
+
+    /// The row of a path that no run plays.
+    pub fn planned(&self, row: u64, planned: &PlanningResult) -> RunRow {
+        self.with_planned(self.failed(row, ""), planned)
     }
 
     /// The row with what came of planning its path. In a study without a planner nothing is changed.

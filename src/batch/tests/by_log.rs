@@ -257,7 +257,7 @@ fn every_column_of_a_row_follows_from_the_log_of_its_run() {
     let names: Vec<&str> = study.columns().iter().map(|column| column.name.as_str()).collect();
     let (mut met, mut goals, mut without) = (0, 0, 0);
     for number in 0..study.runs() {
-        let RunSetup { seed, config, inputs: RunInputs::Script(script) } = study.setup(number).unwrap() else {
+        let RunSetup { seed, config, inputs: RunInputs::Script(script), .. } = study.setup(number).unwrap() else {
             panic!()
         };
         let mut log = Vec::new();

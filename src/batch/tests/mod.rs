@@ -5,6 +5,7 @@ mod files;
 mod problems;
 mod rows;
 mod studies;
+mod varied;
 
 use super::*;
 use motion_lab_core::worlds::World;

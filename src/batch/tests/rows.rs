@@ -13,7 +13,7 @@ pub fn run(study: &Study, row: u64) -> RunRow {
         Ok(setup) => setup,
         Err(reason) => return study.failed(row, &reason),
     };
-    let RunSetup { seed, config, inputs: RunInputs::Script(script) } = setup else { panic!("no planner here") };
+    let RunSetup { seed, config, inputs: RunInputs::Script(script), .. } = setup else { panic!("no planner here") };
     let recipe = Recipe::new(config, (seed, script));
     let mut run = Recorder::of(&recipe).unwrap();
     let mut digest = RunDigest::new(&recipe, run.frame());

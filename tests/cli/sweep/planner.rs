@@ -6,7 +6,7 @@ use super::{folder_with, interrupted, names};
 use crate::cli::{json, run_in};
 
 /// Reach goes round the post by two planners, at three seeds, with two bounds: with 3 iterations there is no path.
-const PLAN: &str = "Sweep(version: 1, worlds: [\"workbench\"], ticks: 600, planner: (name: \"rrt-connect\"),
+pub const PLAN: &str = "Sweep(version: 1, worlds: [\"workbench\"], ticks: 600, planner: (name: \"rrt-connect\"),
     goal: (robot: \"Reach\", at: [3.1, 0], within: [0.001, 0.001]),
     axes: [
         (vary: \"planner\", over: Names([\"rrt-connect\", \"prm\"])),
@@ -91,6 +91,54 @@ fn a_row_is_the_path_that_plan_finds_and_the_run_that_its_script_drives() {
 }
 
 #[test]
+fn a_path_is_the_same_whether_no_run_plays_it_or_one_as_long_as_it_is() {
+    let table = |ticks: &str| {
+        let folder = folder_with(&PLAN.replace("ticks: 600, ", ticks));
+        let at = folder.path();
+        run_in(at, &["sweep", "plan.ron", "-o", "parts", "--keep", "all"]).done();
+        run_in(at, &["sweep", "merge", "parts", "-o", "all.csv", "-o", "all.parquet"]).done();
+        (fs::read_to_string(at.join("all.csv")).unwrap(), folder)
+    };
+    let ((long, _long), (alone, at), (fitting, _fitting)) =
+        (table("ticks: 600, "), table(""), table("ticks: Planned, "));
+    let mut solved = Vec::new();
+    for ((long, alone), fitting) in rows(&long).iter().zip(rows(&alone)).zip(rows(&fitting)) {
+        let planned = ["planner", "seed", "solved", "iterations", "edges", "planned_path_rad", "planned_clearance_m"];
+        for column in planned {
+            assert_eq!((long(column), long(column)), (alone(column), fitting(column)), "{column}");
+        }
+        for column in ["ticks", "contacts", "least_clearance_m", "path_m", "at_goal_s", "planned_time_s", "digest"] {
+            assert_eq!(alone(column), "", "{column}");
+        }
+        assert_eq!(fitting("ticks"), "");
+        if long("solved") == "0" {
+            assert_eq!((long("failure"), long("failure")), (alone("failure"), fitting("failure")));
+            continue;
+        }
+        solved.push(alone("row"));
+        assert_eq!((alone("failure"), fitting("failure")), Default::default());
+        // it ends when the robot is at the goal: then it is there for no longer than the last tick
+        assert_eq!(
+            (fitting("planned_time_s"), fitting("first_at_goal_s")),
+            (long("planned_time_s"), long("first_at_goal_s"))
+        );
+        assert_eq!(fitting("at_goal_s"), "0.05");
+        assert!(long("at_goal_s").parse::<f64>().unwrap() > 10.0);
+        for column in ["path_m", "least_clearance_m", "Reach.end.theta1_rad", "Reach.end.theta2_rad"] {
+            assert_eq!(fitting(column), long(column), "{column}");
+        }
+        assert!(!fitting("digest").is_empty() && fitting("digest") != long("digest"));
+    }
+    assert_eq!(solved.len(), 6);
+    assert!(!at.path().join("parts/logs").exists() || names(&at.path().join("parts/logs")).is_empty());
+    let again = run_in(at.path(), &["sweep", "reproduce", "all.parquet", "--row", &solved[0]]).done();
+    assert!(again.contains("is reproduced: no run plays its path"), "{again}");
+    assert!(!names(at.path()).contains(&format!("{}.mcap", solved[0])));
+    let report = run_in(at.path(), &["sweep", "report", "all.parquet", "-o", "all.html"]);
+    assert_eq!(report.code, Some(0), "{}", report.err);
+}
+
+#[test]
 fn a_rover_and_a_car_are_planned_for_and_driven() {
     for (world, robot, at, within) in [
         ("apartment", "Rusty", "[4.5, 2, 0]", "[0.03, 0.03, 4]"),
@@ -122,6 +170,9 @@ fn a_planner_without_anything_to_do_is_refused_where_the_plan_names_it() {
     for (study, place, reason) in [
         ("planner: (name: \"rrt-3\")", ":2:", "there is no planner \"rrt-3\"; there are rrt-connect, rrt, "),
         ("planner: ()", ":2:", "it needs a goal"),
+        ("ticks: Planned", ":1:1", "planner: there is none whose path could say the ticks"),
+        ("ticks: Never", ":2:", "a number of ticks, or Planned"),
+        ("ticks: -5", ":2:", "a number of ticks, or Planned"),
         (&format!("planner: (), {goal}, script: \"s.ron\""), ":2:", "planner: the study has a script too"),
         (&format!("{goal}, axes: [(vary: \"planner\", over: Names([\"rrt\"]))]"), ":2:", "the study has no planner"),
         (

@@ -8,28 +8,28 @@ use motion_lab_core::num::{greater, lesser};
 use motion_lab_core::picture::{Anchor, Dash, Drawing, Face, Fill, Item, Line, Picture, Role};
 
 /// A line of a chart.
-pub(super) struct PlotLine {
+pub(in crate::capture) struct PlotLine {
     /// Its name, in the legend.
-    pub(super) name: String,
+    pub(in crate::capture) name: String,
     /// Its pieces, left to right: between two of them the line is broken.
-    pub(super) pieces: Vec<Vec<[f64; 2]>>,
+    pub(in crate::capture) pieces: Vec<Vec<[f64; 2]>>,
     /// The stretches across in which its robot was in contact, left to right.
-    pub(super) contacts: Vec<[f64; 2]>,
+    pub(in crate::capture) contacts: Vec<[f64; 2]>,
 }
 
-pub(super) struct PlotChart<'a> {
+pub(in crate::capture) struct PlotChart<'a> {
     /// What goes up, with its unit; it names the picture too.
-    pub(super) up: &'a str,
+    pub(in crate::capture) up: &'a str,
     /// What goes across, with its unit.
-    pub(super) across: &'a str,
+    pub(in crate::capture) across: &'a str,
     /// Both ends of the axis across.
-    pub(super) span: [f64; 2],
+    pub(in crate::capture) span: [f64; 2],
     /// The only value, which the middle of the axis across then stands for; `None` for an axis of many.
-    pub(super) only: Option<String>,
+    pub(in crate::capture) only: Option<String>,
     /// Whether the values are angles in (-pi, pi]; the axis then shows them all.
-    pub(super) angles: bool,
+    pub(in crate::capture) angles: bool,
     /// The lines, at most [`MAX_LINES`].
-    pub(super) lines: Vec<PlotLine>,
+    pub(in crate::capture) lines: Vec<PlotLine>,
 }
 
 /// The look of the lines, which differ in colour, and neighbours in their dashes too.
@@ -71,7 +71,7 @@ const SAMPLE: f64 = 24.0;
 
 impl PlotChart<'_> {
     /// The picture of the chart, `width` pixels wide on its sheet. Its plane is in pixels, x right, y up.
-    pub(super) fn picture(&self, width: f64) -> Picture {
+    pub(in crate::capture) fn picture(&self, width: f64) -> Picture {
         let legend = self.legend(width);
         let head = LEADING * (1.0 + legend.iter().map(|entry| entry.row + 1).max().unwrap_or(0) as f64);
         let height = lesser(540.0, greater(0.4 * width, 120.0) + head + BELOW);
@@ -229,17 +229,17 @@ struct LegendEntry {
 }
 
 /// The part of the picture that the axes span, pixels, and the values at its edges.
-struct Area {
-    left: f64,
-    right: f64,
-    bottom: f64,
-    top: f64,
-    across: [f64; 2],
-    up: [f64; 2],
+pub(in crate::capture) struct Area {
+    pub(in crate::capture) left: f64,
+    pub(in crate::capture) right: f64,
+    pub(in crate::capture) bottom: f64,
+    pub(in crate::capture) top: f64,
+    pub(in crate::capture) across: [f64; 2],
+    pub(in crate::capture) up: [f64; 2],
 }
 
 impl Area {
-    fn at(&self, [x, y]: [f64; 2]) -> Point2 {
+    pub(in crate::capture) fn at(&self, [x, y]: [f64; 2]) -> Point2 {
         let part = |value: f64, [low, high]: [f64; 2]| (value - low) / (high - low);
         Point2::new(
             self.left + part(x, self.across) * (self.right - self.left),
@@ -288,7 +288,7 @@ impl PlotLine {
     }
 }
 
-fn label(id: String, at: Point2, text: &str, anchor: Anchor) -> Item {
+pub(in crate::capture) fn label(id: String, at: Point2, text: &str, anchor: Anchor) -> Item {
     let text = text.to_owned();
     let drawing = Drawing::Label { at, text: text.clone(), anchor, face: Face::Sans, size_px: SMALL, plate: false };
     Item::new(id, text, Role::Muted, drawing)

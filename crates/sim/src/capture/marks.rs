@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 /// A mark of an axis, with its figure.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct AxisMark {
-    pub(super) at: f64,
-    pub(super) text: String,
+pub(in crate::capture) struct AxisMark {
+    pub(in crate::capture) at: f64,
+    pub(in crate::capture) text: String,
 }
 
 /// Round marks between both ends, about `most` of them and at least two where there is room for two: multiples of 1, 2
 /// or 5 times a power of ten.
-pub(super) fn marks([low, high]: [f64; 2], most: usize) -> Vec<AxisMark> {
+pub(in crate::capture) fn marks([low, high]: [f64; 2], most: usize) -> Vec<AxisMark> {
     const DECADES: [(f64, usize); 16] = [
         (1e-6, 6),
         (1e-5, 5),
@@ -41,7 +41,7 @@ pub(super) fn marks([low, high]: [f64; 2], most: usize) -> Vec<AxisMark> {
     (first..=last).map(mark).collect()
 }
 
-pub(super) fn angle_marks() -> Vec<AxisMark> {
+pub(in crate::capture) fn angle_marks() -> Vec<AxisMark> {
     let marks = [
         (-PI, "\u{2212}\u{3c0}"),
         (-0.5 * PI, "\u{2212}\u{3c0}/2"),

@@ -16,9 +16,9 @@
 
 mod captured;
 mod chart;
+mod distributions;
 mod error;
 mod film;
-mod histogram;
 mod marks;
 mod moving;
 mod plan;
@@ -30,9 +30,9 @@ mod tour_figure;
 
 pub use captured::{CaptureForm, Captured, Note, Paper, TICK_HUNDREDTHS};
 pub use chart::MAX_LINES;
+pub use distributions::{ByValue, Distribution, Quartiles, boxes, histograms};
 pub use error::CaptureError;
 pub use film::Film;
-pub use histogram::{Distribution, histograms};
 pub use moving::{CaptureSpan, Subject, at_tick, at_tick_with_robots};
 pub use plan::{PlanOutcome, PlanSheet, judged_words, plan, proven, unit};
 pub use plot::{RunPlot, plot};

@@ -63,6 +63,7 @@ pub fn again(study: &Study, row: u64, log: &Target) -> Result<Option<RunRow>, Fa
 fn ran(study: &Study, row: u64, stop: StopRule, log: Option<&Target>) -> Result<Option<RunRow>, Failure> {
     let (run, planned) = match study.setup(row).map(made) {
         Err(reason) => return Ok(Some(study.failed(row, &reason))),
+        Ok(PlannedInputs::Path(planned)) => return Ok(Some(study.planned(row, &planned))),
         Ok(PlannedInputs::None(reason, planned)) => {
             return Ok(Some(study.with_planned(study.failed(row, &reason), &planned)));
         }

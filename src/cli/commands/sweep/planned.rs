@@ -1,13 +1,14 @@
 //! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
 
-use crate::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunSetup};
+use crate::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunLength, RunSetup};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::planning::{Effort, NoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::plans::{PathLengths, PlannerName, Task};
-use motion_lab_sim::run::{Recipe, Script, seconds};
+use motion_lab_sim::run::{Recipe, seconds};
+use motion_lab_sim::simulation::PlayedPath;
 use motion_lab_sim::tour::TourConfig;
 
 use crate::cli::commands::plan::planners::planners;
@@ -17,6 +18,8 @@ use crate::cli::commands::plan::solve;
 pub enum PlannedInputs {
     /// They are there; with what came of planning, where a planner made them.
     Run(Box<Recipe>, Option<PlanningResult>),
+    /// There is a path, which no run plays.
+    Path(PlanningResult),
     /// There are none, for this reason.
     None(String, PlanningResult),
     /// Somebody asked to stop.
@@ -45,13 +48,17 @@ impl From<NoPath> for Why {
 
 /// The run of a row.
 pub fn made(setup: RunSetup) -> PlannedInputs {
-    let RunSetup { seed, config, inputs } = setup;
+    let RunSetup { seed, mut config, length, inputs } = setup;
     let (script, planned) = match inputs {
         RunInputs::Script(script) => (script, None),
         RunInputs::Planner(planning) => {
             let mut planned = PlanningResult::default();
-            match planned_script(&config, seed, &planning, &mut planned) {
-                Ok(script) => (script, Some(planned)),
+            match planned_script((&config, length), seed, &planning, &mut planned) {
+                Ok(Some(played)) => {
+                    config.ticks = length.ticks().unwrap_or(played.ticks);
+                    (played.script, Some(planned))
+                }
+                Ok(None) => return PlannedInputs::Path(planned),
                 Err(Why::NoPath(reason)) => return PlannedInputs::None(reason, planned),
                 Err(Why::Stopped) => return PlannedInputs::Stopped,
             }
@@ -60,13 +67,14 @@ pub fn made(setup: RunSetup) -> PlannedInputs {
     PlannedInputs::Run(Box::new(Recipe::new(config, (seed, script))), planned)
 }
 
-/// The script that plays the path of the run's only robot. What comes of planning goes to `planned`, as far as it gets.
+/// The script that plays the path of the run's only robot; `None` where no run plays it. What comes of planning goes to
+/// `planned`, as far as it gets.
 fn planned_script(
-    config: &TourConfig,
+    (config, run): (&TourConfig, RunLength),
     seed: Seed,
     planning: &Planning,
     planned: &mut PlanningResult,
-) -> Result<Script, Why> {
+) -> Result<Option<PlayedPath>, Why> {
     let world = config.worlds.iter().find(|world| !world.robots.is_empty());
     let world = world.ok_or_else(|| "no robot takes part in this run".to_owned())?;
     let (task, name) = task(world, planning)?;
@@ -78,11 +86,14 @@ fn planned_script(
     let PathLengths { length, clearance } = attempt.lengths();
     let path = PlannedPath { length, clearance, time: None };
     planned.path = Some(path);
+    if run == RunLength::Unsimulated {
+        return Ok(None);
+    }
     let (_, played) = task.played(attempt.as_ref(), seed);
     let played = played.ok_or_else(|| "there is no path to play".to_owned())?;
     let played = played.map_err(|reason| format!("the path can't be played: {reason}"))?;
     planned.path = Some(PlannedPath { time: Some(seconds(played.ticks)), ..path });
-    Ok(played.script)
+    Ok(Some(played))
 }
 
 /// The task of a world's only robot, and its planner; else the reason against it.

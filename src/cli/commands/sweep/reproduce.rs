@@ -111,7 +111,9 @@ impl Reproduce {
             (None, Some(RowValue::Text(reason))) => {
                 data.line(format!("row {} could not be run, and there is no log: {reason}", self.row))?;
             }
-            (None, _) => data.line(format!("row {} could not be run, and there is no log", self.row))?,
+            (None, _) => {
+                data.line(format!("row {} is reproduced: no run plays its path, and there is no log", self.row))?
+            }
         }
         Ok(Outcome::Done)
     }

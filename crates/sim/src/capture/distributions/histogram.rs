@@ -1,7 +1,8 @@
 //! Histograms of many runs' numbers, side by side as a figure.
 
-use super::chart::{PlotChart, PlotLine};
-use super::{Captured, Note};
+use super::quartiles::Quartiles;
+use crate::capture::captured::{Captured, Note};
+use crate::capture::chart::{PlotChart, PlotLine};
 use motion_lab_core::picture::{Figure, Panel};
 
 /// One quantity with its values in many runs, to be drawn as a histogram.
@@ -28,7 +29,7 @@ pub fn histograms(title: &str, distributions: &[Distribution], notes: Vec<Note>)
         let mut values: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
         values.sort_by(f64::total_cmp);
         let (Some(&low), Some(&high)) = (values.first(), values.last()) else { continue };
-        let (count, median) = (values.len(), values[values.len() / 2]);
+        let Some(Quartiles { count, median, .. }) = Quartiles::of(values.iter().copied()) else { continue };
         let (bins, span, only) = if low == high {
             // a third of the axis, whatever the value
             (vec![Bin { from: 1.0, to: 2.0, count: count as u64 }], [0.0, 3.0], Some(low.to_string()))

@@ -1,0 +1,50 @@
+//! `VariedAxis`, an axis of few values, by which the runs of a sweep are told apart.
+
+use crate::batch::axis::CheckedAxis;
+use crate::batch::values::AxisValue;
+
+/// The most values of an axis by which runs are told apart.
+const MAX_VALUES: u64 = 12;
+
+/// An axis of two to twelve values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VariedAxis {
+    /// The parameter, as the study calls it.
+    pub name: String,
+    /// Its values in words, in the axis's order, each once.
+    pub values: Vec<String>,
+    /// The number of the axis in the study.
+    number: usize,
+    own: Vec<AxisValue>,
+}
+
+impl VariedAxis {
+    /// The axis with this number in the study; `None` with too few or too many values.
+    pub(in crate::batch) fn of(number: usize, axis: &CheckedAxis) -> Option<Self> {
+        let count = axis.len().filter(|count| *count <= MAX_VALUES)?;
+        let mut own: Vec<AxisValue> = Vec::new();
+        for value in (0..count).map(|i| axis.value(i)) {
+            if !own.contains(&value) {
+                own.push(value);
+            }
+        }
+        let values = own.iter().map(words).collect();
+        (own.len() > 1).then(|| VariedAxis { name: axis.parameter.name(), values, number, own })
+    }
+
+    /// The number of its value among those of all axes of a row. Every value of the axis is there.
+    pub(in crate::batch) fn number_of(&self, row: &[AxisValue]) -> usize {
+        self.own.iter().position(|value| *value == row[self.number]).unwrap_or(0)
+    }
+}
+
+/// A value in words.
+fn words(value: &AxisValue) -> String {
+    match value {
+        AxisValue::Whole(n) => n.to_string(),
+        AxisValue::Number(x) => x.to_string(),
+        AxisValue::Name(name) => name.clone(),
+        AxisValue::Configuration(start) => start.iter().map(f64::to_string).collect::<Vec<_>>().join(", "),
+        AxisValue::Problem(problem) => format!("problem {}", problem.number),
+    }
+}

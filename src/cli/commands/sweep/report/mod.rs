@@ -1,0 +1,108 @@
+//! `sweep report`: what became of a sweep's runs, as one page or one figure.
+
+mod by_value;
+mod gathered;
+mod page;
+mod words;
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use motion_lab_core::names::{hint, nearest};
+use motion_lab_core::picture::Theme;
+
+use crate::capture::Paper;
+use crate::cli::support::choices::{self, Site};
+use crate::cli::support::input::is_dash;
+use crate::cli::support::output::write_text;
+use crate::cli::{Data, Failure, Outcome};
+use gathered::Gathered;
+
+/// Show what became of a sweep's runs: distributions, the worst runs, the failures.
+///
+/// A page (.html) stands alone. For each parameter that took two to twelve values it has a table and boxes: how many
+/// runs each value had, how many were solved and failed, and the results by quartiles. For each run it names it has the
+/// command that shows it in the window, and the link that shows it in a browser or why no link can. A figure (.svg) has
+/// the distributions only, or with --by the boxes of a parameter.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  motion-lab sweep report noise.parquet -o noise.html
+  motion-lab sweep report noise.parquet --theme dark -o noise.svg
+  motion-lab sweep report planners.parquet --by planner -o planners.svg")]
+pub struct Report {
+    /// The table that `sweep merge` wrote, .parquet.
+    #[arg(value_name = "TABLE")]
+    table: PathBuf,
+    /// The page (.html) or figure (.svg) to write. `-` is standard output.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+    /// The form. [default: by the output's name; html for `-`]
+    #[arg(long)]
+    format: Option<PageForm>,
+    /// The parameter that is told apart, as the study calls it. [default: in a page each of two to twelve values]
+    #[arg(long, value_name = "PARAMETER")]
+    by: Option<String>,
+    #[command(flatten)]
+    site: Site,
+    /// The colours of the figure.
+    #[arg(long, value_parser = choices::theme(), default_value = "light")]
+    theme: Theme,
+}
+
+/// The form of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PageForm {
+    /// A page.
+    Html,
+    /// A figure.
+    Svg,
+}
+
+impl Report {
+    /// Runs the command.
+    pub fn run(self, data: &mut Data) -> Result<Outcome, Failure> {
+        let form = self.form()?;
+        let mut gathered = Gathered::of(&self.table)?;
+        if let Some(name) = &self.by {
+            gathered = self.by_parameter(gathered, name)?;
+        }
+        let paper = Paper { palette: self.theme.palette(), width: 1280, scale: 1.0 };
+        let text = match (form, &self.by) {
+            (PageForm::Svg, None) => gathered.figure().svg(&paper),
+            (PageForm::Svg, Some(_)) => gathered.figures_by_value().map(|figure| figure.svg(&paper)).collect(),
+            (PageForm::Html, _) => page::page(&gathered, &self.table, &paper, &self.site.site),
+        };
+        write_text(Some(&self.output), &text, data)?;
+        Ok(Outcome::Done)
+    }
+
+    /// The same runs, told apart by this parameter alone.
+    fn by_parameter(&self, gathered: Gathered, name: &str) -> Result<Gathered, Failure> {
+        let known: Vec<String> = gathered.axes.iter().map(|axis| axis.name.clone()).collect();
+        gathered.only(name).ok_or_else(|| {
+            let there = match &known[..] {
+                [] => "no parameter took two to twelve values".to_owned(),
+                known => format!("those of two to twelve values are {}", known.join(", ")),
+            };
+            let meant = hint(nearest(name, known.iter().map(String::as_str)));
+            let reason = format!("--by {name}: {} has no such parameter; {there}{meant}", self.table.display());
+            Failure::usage(reason, "Name one of them, or leave out --by.")
+        })
+    }
+
+    /// The form: what was said, else what the output's name tells, else a page for standard output.
+    fn form(&self) -> Result<PageForm, Failure> {
+        let named = match self.output.extension().and_then(|ending| ending.to_str()) {
+            Some("html") => Some(PageForm::Html),
+            Some("svg") => Some(PageForm::Svg),
+            _ => is_dash(&self.output).then_some(PageForm::Html),
+        };
+        self.format.or(named).ok_or_else(|| {
+            Failure::usage(
+                format!("{}: no report has this ending", self.output.display()),
+                "Name a file that ends in .html or .svg, or say --format.",
+            )
+        })
+    }
+}
