@@ -68,8 +68,7 @@ fn words(value: &str, found: Option<&Quartiles>) -> String {
 fn span(found: &[Option<Quartiles>]) -> Option<[f64; 2]> {
     let ends = found.iter().flatten().map(|q| [q.least, q.greatest]);
     let [low, high] = ends.reduce(|[low, high], [least, most]| [lesser(low, least), greater(high, most)])?;
-    // halves of each, as their difference may overflow
-    let room = greater(0.08 * (0.5 * high - 0.5 * low), 1e-9 * greater(high.abs(), 1.0));
+    let room = greater(0.04 * (high - low), 1e-9 * greater(high.abs(), 1.0));
     Some(if low == high {
         [low - 0.5 * greater(low.abs(), 1.0), high + 0.5 * greater(high.abs(), 1.0)]
     } else {
