@@ -84,6 +84,10 @@ fn one_parameter_is_drawn_alone() {
     run_in(at, &["sweep", "report", "all.parquet", "--by", "seed", "-o", "by.html"]).done();
     let page = fs::read_to_string(at.join("by.html")).unwrap();
     assert!(page.contains("<h2>By seed</h2>") && !page.contains("<h2>By planner</h2>"));
+    // its runs are those of the whole report
+    run_in(at, &["sweep", "report", "all.parquet", "-o", "all.html"]).done();
+    let whole = fs::read_to_string(at.join("all.html")).unwrap();
+    assert_eq!(table(&page, "By seed"), table(&whole, "By seed"));
     let refused = run_in(at, &["sweep", "report", "all.parquet", "--by", "plannr", "-o", "no.svg"]).failed(2);
     assert!(refused.contains("those of two to twelve values are planner, planner.iterations, seed"), "{refused}");
     assert!(refused.contains("did you mean \"planner\"?"), "{refused}");
