@@ -67,7 +67,9 @@
 pub use motion_lab_core::{
     collision, configuration, cspace, geometry, num, picture, planning, prelude, random, robots, sensors, short_list,
 };
-pub use motion_lab_sim::{anatomy, atlas, avoid, course, export, plans, run, run_page, shrink, simulation, tour};
+pub use motion_lab_sim::{
+    anatomy, atlas, avoid, course, export, plans, problems, run, run_page, shrink, simulation, tour,
+};
 
 /// Worlds: lists of named geometry, never bitmaps.
 pub mod worlds {

@@ -22,6 +22,7 @@ mod path;
 mod picture;
 mod planning;
 mod pool;
+mod problem;
 mod recorder;
 mod recording;
 mod resident;
@@ -85,6 +86,8 @@ mod _core {
     use crate::picture::PyPicture;
     #[pymodule_export]
     use crate::planning::{plan, planner_names};
+    #[pymodule_export]
+    use crate::problem::PyProblem;
     #[pymodule_export]
     use crate::recorder::PyRecorder;
     #[pymodule_export]

@@ -1,7 +1,7 @@
 //! `Path`, a planned path with its proofs.
 
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::exceptions::{PyFileExistsError, PyValueError};
@@ -69,7 +69,7 @@ impl PyPath {
         let usual = AnyRobot::model(robot.kind(), None).map(|model| model.fitted(start));
         let sizes = (usual != Some(*robot)).then(|| robot.sizes());
         let resident = Resident { sizes, ..Resident::new(robot.title(), robot.kind(), start.coordinates().to_vec()) };
-        Task { world: World { robots: vec![resident], ..world.clone() }, ..self.task.clone() }
+        Task { world: Arc::new(World { robots: vec![resident], ..World::clone(world) }), ..self.task.clone() }
     }
 
     fn picture(&self, py: Python<'_>, theme_name: &str) -> PyResult<PyPicture> {

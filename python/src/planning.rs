@@ -14,7 +14,7 @@ use motion_lab_core::planning::{Bounds, Effort, NoPath as LabNoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, RUSTY, Robot, Rusty};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::plans::{CheckerName, MAX_CLEARANCE, PlanAttempt, PlannerName, Planners, Task};
+use motion_lab_sim::plans::{MAX_CLEARANCE, PlanAttempt, PlannerName, Planners, Task};
 use motion_lab_sim::tour::BOOK_SEED;
 
 use crate::arrays::Given;
@@ -94,8 +94,7 @@ pub fn plan(
     if !(0.0..=1.0).contains(&tube) {
         return Err(PyValueError::new_err(format!("tube {tube}: it must be from 0 to 1 m")));
     }
-    let task = task(lab, (*world).clone(), scene, ends);
-    let task = Task { tube, clearance, ..task };
+    let task = Task { tube, clearance, ..Task::in_scene(lab.title(), lab, (world, scene), ends) };
     let made = py.detach(|| match &own {
         Some(own) => task.attempt_by_lines(own, name.draws_samples(), seed),
         None => task.attempt(name, seed),
@@ -142,22 +141,6 @@ fn place(given: &Bound<'_, PyAny>, robot: Option<&Bound<'_, PyRobot>>) -> PyResu
 /// The planner of this name.
 fn named(name: &str) -> PyResult<PlannerName> {
     Planners::default().named(name).map_err(|unknown| PyValueError::new_err(unknown.to_string()))
-}
-
-/// The task of a robot in a world of which the scene is there already.
-fn task(robot: AnyRobot, world: World, scene: Arc<Scene>, [start, goal]: [AnyConfiguration; 2]) -> Task {
-    Task {
-        name: robot.title().to_owned(),
-        robot,
-        world,
-        scene,
-        start,
-        goal,
-        tube: 0.0,
-        clearance: None,
-        noise: None,
-        checker: CheckerName::EXACT,
-    }
 }
 
 /// The lab's robot for planners: a disc is the rover's body.

@@ -5,26 +5,34 @@ use std::sync::Arc;
 
 use super::error::SweepProblem;
 use super::parameter::{Parameter, ValueForm};
-use super::values::{AxisValue, NumberedProblem, Over, WrittenNumber};
+use super::problem_set::ProblemSet;
+use super::values::{AxisValue, FiledProblem, NumberedProblem, Over, WrittenNumber};
 use motion_lab_core::configuration::{RobotKind, WrittenCoordinate};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_import::Scenario;
 
-/// The scenarios of a study, by the names it gives them.
-pub(super) type Scenarios = BTreeMap<String, Arc<Scenario>>;
+/// The problems that a file holds.
+#[derive(Clone, Debug)]
+pub(super) enum NamedProblems {
+    Scenario(Arc<Scenario>),
+    Filed(Arc<ProblemSet>),
+}
+
+/// The problems of a study's files, by the names it gives them.
+pub(super) type ProblemFiles = BTreeMap<String, NamedProblems>;
 
 /// An axis whose values fit its parameter.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub(super) struct CheckedAxis {
     pub parameter: Parameter,
     over: Arc<Over>,
-    /// The scenario of an axis of problems.
-    scenario: Option<Arc<Scenario>>,
+    /// The problems of an axis of problems.
+    problems: Option<NamedProblems>,
 }
 
 impl CheckedAxis {
-    /// The axis, if its values fit its parameter. `scenarios` are those that the study has, by the names it gives them.
-    pub fn try_new(parameter: Parameter, over: Arc<Over>, scenarios: &Scenarios) -> Result<Self, SweepProblem> {
+    /// The axis, if its values fit its parameter. `files` have the study's problems, by the names it gives them.
+    pub fn try_new(parameter: Parameter, over: Arc<Over>, files: &ProblemFiles) -> Result<Self, SweepProblem> {
         let form = parameter.form();
         let fits = matches!(
             (&*over, form),
@@ -50,12 +58,12 @@ impl CheckedAxis {
         if form != ValueForm::Number("rad") && over.written().any(|number| is_degrees(&number)) {
             return Err(SweepProblem::Degrees);
         }
-        let scenario = match &*over {
-            Over::Problems(file) => {
+        let problems = match over.problem_file() {
+            Some((file, _)) => {
                 let missing = || SweepProblem::Run(format!("there is no scenario {file:?}"));
-                Some(Arc::clone(scenarios.get(file).ok_or_else(missing)?))
+                Some(files.get(file).ok_or_else(missing)?.clone())
             }
-            _ => None,
+            None => None,
         };
         match &*over {
             Over::Steps(_, _, count @ 0..2) => Err(SweepProblem::Steps(*count)),
@@ -63,27 +71,48 @@ impl CheckedAxis {
                 Err(SweepProblem::Span(from.real(), to.real()))
             }
             _ if over.len() == Some(0) => Err(SweepProblem::Empty),
-            _ => Ok(CheckedAxis { parameter, over, scenario }),
+            _ => Ok(CheckedAxis { parameter, over, problems }),
         }
     }
 
     /// The number of its values; `None` for a range without steps.
     pub fn len(&self) -> Option<u64> {
-        self.scenario.as_ref().map_or(self.over.len(), |scenario| Some(scenario.problems.len() as u64))
+        match &self.problems {
+            Some(NamedProblems::Scenario(scenario)) => Some(scenario.problems.len() as u64),
+            Some(NamedProblems::Filed(problems)) => Some(problems.len()),
+            None => self.over.len(),
+        }
+    }
+
+    /// The problems of a problem file, if it has such.
+    pub fn filed(&self) -> Option<&Arc<ProblemSet>> {
+        match &self.problems {
+            Some(NamedProblems::Filed(problems)) => Some(problems),
+            _ => None,
+        }
     }
 
     /// The problem with this number, from 0, of an axis of problems; the last one beyond the end.
-    fn problem(&self, i: u64) -> Option<NumberedProblem> {
-        let (Over::Problems(file), Some(scenario)) = (&*self.over, &self.scenario) else { return None };
-        let number = i.saturating_add(1).min(scenario.problems.len() as u64);
-        let problem = scenario.problems.get(usize::try_from(number).ok()?.checked_sub(1)?)?.clone();
-        Some(NumberedProblem { file: file.clone(), number, scenario: Arc::clone(scenario), problem })
+    fn problem(&self, i: u64) -> Option<AxisValue> {
+        let (file, _) = self.over.problem_file()?;
+        match self.problems.as_ref()? {
+            NamedProblems::Filed(problems) => {
+                let index = i.min(problems.len().saturating_sub(1));
+                Some(AxisValue::Filed(FiledProblem { problems: Arc::clone(problems), index }))
+            }
+            NamedProblems::Scenario(scenario) => {
+                let number = i.saturating_add(1).min(scenario.problems.len() as u64);
+                let problem = scenario.problems.get(usize::try_from(number).ok()?.checked_sub(1)?)?.clone();
+                let (file, scenario) = (file.to_owned(), Arc::clone(scenario));
+                Some(AxisValue::Problem(NumberedProblem { file, number, scenario, problem }))
+            }
+        }
     }
 
     /// Its value with this number, from 0; the last one beyond the end.
     pub fn value(&self, i: u64) -> AxisValue {
         if let Some(problem) = self.problem(i) {
-            return AxisValue::Problem(problem);
+            return problem;
         }
         let at = |len: usize| usize::try_from(i).unwrap_or(usize::MAX).min(len.saturating_sub(1));
         match &*self.over {
@@ -97,7 +126,7 @@ impl CheckedAxis {
             }
             Over::Uniform(from, _) => self.number(from.real()),
             Over::Names(names) => AxisValue::Name(names[at(names.len())].clone()),
-            // a scenario has a problem
+            // a file has a problem
             Over::Problems(file) => AxisValue::Name(file.clone()),
             Over::Starts(all) | Over::Goals(all) => {
                 AxisValue::Configuration(all[at(all.len())].iter().map(|coordinate| coordinate.value()).collect())

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::axis::CheckedAxis;
 use super::csv;
 use super::parameter::ValueForm;
+use super::problem_set::ProblemSet;
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_sim::export::csv_cell;
 
@@ -80,8 +81,31 @@ fn of_axis(axis: &CheckedAxis) -> Vec<Column> {
         ValueForm::Start | ValueForm::Goal => coordinates(axis.parameter.configured())
             .map(|(c, unit)| column(format!("{name}.{c}"), CellKind::Number, unit, about))
             .collect(),
+        ValueForm::Problem if let Some(problems) = axis.filed() => of_filed(problems),
         ValueForm::Problem => OF_PROBLEM.map(|(end, kind, unit, about)| column(end, kind, unit, about)).to_vec(),
     }
+}
+
+/// What a row says of a problem of a problem file.
+fn of_filed(problems: &ProblemSet) -> Vec<Column> {
+    let known = "`path` or `none` where it is known whether there is one";
+    let mut columns = vec![
+        column("problem", CellKind::Whole, "", "number of the problem in its file, from 1"),
+        column("problem.set", CellKind::Text, "", "its set"),
+        column("problem.known", CellKind::Text, "", known),
+        column("problem.bucket", CellKind::Whole, "", "its bucket by the scenario"),
+        column(
+            "problem.optimal",
+            CellKind::Number,
+            "m",
+            "length of the shortest way in eight directions by the scenario",
+        ),
+    ];
+    for (end, about) in [("start", "where the robot starts"), ("goal", "where it should go")] {
+        let of = |(c, unit)| column(format!("problem.{end}.{c}"), CellKind::Number, unit, about);
+        columns.extend(coordinates(problems.kinds().first().copied()).map(of));
+    }
+    columns
 }
 
 /// The names of a kind's coordinates with their units.

@@ -1,5 +1,5 @@
 //! Many runs as values. Parameter sweeps: a study, its axes, the run of each row, the rows as tables, and shards of
-//! them; and planners compared.
+//! them; problems as data, and planners compared by them.
 //!
 //! A row is a function of the study and its number alone, so that any number of jobs, shards and machines makes the
 //! same bytes. A study file is RON:
@@ -29,6 +29,7 @@ mod parameter;
 mod part;
 mod planning;
 mod points;
+mod problem_set;
 mod row;
 mod shard;
 mod study;
@@ -40,11 +41,14 @@ mod tests;
 mod values;
 
 pub use columns::{CellKind, Column, MAX_ROBOT_COLUMNS};
-pub use comparison::{ComparedAttempt, KnownProblem, NoProblem, PathCost, PlanCase, PlannerComparison, PlannerMedians};
+pub use comparison::{
+    AskedPath, ComparedAttempt, MixedKinds, NoProblem, PathCost, PlanCase, PlannerComparison, PlannerMedians,
+};
 pub use error::{MAX_RUNS, PLAN_VERSION, StudyError, SweepProblem};
 pub use gatherer::RowGatherer;
 pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};
 pub use planning::{PlannedPath, Planning, PlanningResult, RunLength};
+pub use problem_set::{KnownProblem, ProblemBundle, ProblemFile, ProblemFileError, ProblemSet, SetProblem};
 pub use row::{RowValue, RunRow};
 pub use shard::{Shard, ShardError};
 pub use study::{RunInputs, RunSetup, Study, VariedAxis};

@@ -80,7 +80,7 @@ impl ValueForm {
             ValueForm::Name => "Names([...])",
             ValueForm::Start => "Starts([[...], [...]])",
             ValueForm::Goal => "Goals([[...], [...]])",
-            ValueForm::Problem => "Problems(\"FILE.scen\")",
+            ValueForm::Problem => "Problems(\"FILE\")",
         }
     }
 }
@@ -314,7 +314,7 @@ impl RobotParameter {
         let number = match value {
             AxisValue::Number(x) => *x,
             AxisValue::Whole(n) => *n as f64,
-            AxisValue::Configuration(_) | AxisValue::Name(_) | AxisValue::Problem(_) => 0.0,
+            AxisValue::Configuration(_) | AxisValue::Name(_) | AxisValue::Problem(_) | AxisValue::Filed(_) => 0.0,
         };
         match self {
             RobotParameter::Start => {

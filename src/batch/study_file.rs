@@ -6,6 +6,7 @@ use ron::value::RawValue;
 use serde::Deserialize;
 
 use super::error::{PLAN_VERSION, StudyError, SweepProblem};
+use super::problem_set::ProblemBundle;
 use super::study::Study;
 use super::study_text::{Bundle, FORMAT, StudyItem, StudyText};
 use super::values::Over;
@@ -51,6 +52,7 @@ pub struct StudyFile {
     source: String,
     text: StudyText,
     scenarios: BTreeMap<String, Scenario>,
+    problems: BTreeMap<String, ProblemBundle>,
 }
 
 /// The RON options of studies: an optional value is written plainly, as in `ticks: 100`.
@@ -84,10 +86,16 @@ impl StudyFile {
             let at = Position { line: e.span.start.line, column: e.span.start.col };
             error(at, String::new(), SweepProblem::Syntax(ron_in_words(text, &e)))
         })?;
-        if read.worlds.is_empty() && read.warehouse.is_none() {
+        if read.worlds.is_empty() && read.warehouse.is_none() && !read.has_filed_problems() {
             read.worlds = World::built_in_names().into_iter().map(str::to_owned).collect();
         }
-        Ok(StudyFile { file: file.to_owned(), source: text.to_owned(), text: read, scenarios: BTreeMap::new() })
+        Ok(StudyFile {
+            file: file.to_owned(),
+            source: text.to_owned(),
+            text: read,
+            scenarios: BTreeMap::new(),
+            problems: BTreeMap::new(),
+        })
     }
 
     fn named(&self, parameter: &str) -> impl Iterator<Item = &str> {
@@ -117,17 +125,29 @@ impl StudyFile {
 
     /// The names of its scenarios: paths relative to the study's folder. Each once.
     pub fn scenario_names(&self) -> BTreeSet<&str> {
-        let named = self.text.axes.iter().filter_map(|axis| match &*axis.over {
-            Over::Problems(name) => Some(name.as_str()),
-            _ => None,
-        });
-        named.collect()
+        self.problem_names(false)
+    }
+
+    /// The names of its problem files: paths relative to the study's folder, which end in `.ron`. Each once.
+    pub fn problem_file_names(&self) -> BTreeSet<&str> {
+        self.problem_names(true)
+    }
+
+    fn problem_names(&self, is_filed: bool) -> BTreeSet<&str> {
+        let all = self.text.axes.iter().filter_map(|axis| axis.over.problem_file());
+        all.filter(|(_, filed)| *filed == is_filed).map(|(name, _)| name).collect()
     }
 
     /// The same study with the scenarios it names.
     #[must_use]
     pub fn with_scenarios(self, scenarios: BTreeMap<String, Scenario>) -> Self {
         StudyFile { scenarios, ..self }
+    }
+
+    /// The same study with the problem files it names.
+    #[must_use]
+    pub fn with_problems(self, problems: BTreeMap<String, ProblemBundle>) -> Self {
+        StudyFile { problems, ..self }
     }
 
     /// Where the study names this world, script, planner or scenario, as messages have it: `study.ron:3:14`.
@@ -164,6 +184,7 @@ impl StudyFile {
             worlds: worlds.iter().map(|(name, world)| (name.clone(), world.to_ron())).collect(),
             scripts: scripts.iter().map(|(name, script)| (name.clone(), script.to_ron())).collect(),
             scenarios: self.scenarios.iter().map(|(name, scenario)| (name.clone(), scenario.to_text())).collect(),
+            problems: self.problems.clone(),
         };
         let study = Study::of_bundle(bundle);
         let study =

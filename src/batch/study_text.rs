@@ -7,6 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use xxhash_rust::xxh3::xxh3_128;
 
 use super::points::Combinations;
+use super::problem_set::ProblemBundle;
 use super::values::Over;
 use motion_lab_core::configuration::WrittenCoordinate;
 use motion_lab_sim::run::Digest;
@@ -47,6 +48,11 @@ pub(super) struct StudyText {
 }
 
 impl StudyText {
+    /// Whether its worlds are those of its problems.
+    pub fn has_filed_problems(&self) -> bool {
+        self.axes.iter().any(|axis| axis.over.problem_file().is_some_and(|(_, is_filed)| is_filed))
+    }
+
     /// Whether a robot of this name takes part.
     pub fn keeps(&self, robot: &str) -> bool {
         self.robots.is_empty() || self.robots.iter().any(|kept| kept == robot)
@@ -178,6 +184,9 @@ pub(super) struct Bundle {
     /// The scenarios of its problems, a field of the line only where there are some.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub scenarios: BTreeMap<String, String>,
+    /// The problem files, likewise.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub problems: BTreeMap<String, ProblemBundle>,
 }
 
 /// The digest of a bundle's line: equal digests mean equal sweeps.

@@ -3,6 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
+use super::problem_set::{ProblemSet, SetProblem};
 use motion_lab_core::configuration::WrittenCoordinate;
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_import::{Scenario, ScenarioProblem};
@@ -109,7 +110,7 @@ pub(super) enum Over {
     Starts(Vec<Vec<WrittenCoordinate>>),
     /// Configurations of the goal's robot.
     Goals(Vec<Vec<WrittenCoordinate>>),
-    /// The problems of a scenario's file, relative to the study's folder.
+    /// The problems of a problem file, which ends in `.ron`, or of a scenario, relative to the study's folder.
     Problems(String),
 }
 
@@ -122,7 +123,32 @@ pub(super) enum AxisValue {
     Name(String),
     /// The coordinates of a configuration.
     Configuration(Vec<f64>),
+    /// A problem of a scenario.
     Problem(NumberedProblem),
+    /// A problem of a problem file.
+    Filed(FiledProblem),
+}
+
+/// A problem of a problem file.
+#[derive(Clone, Debug)]
+pub(super) struct FiledProblem {
+    pub problems: Arc<ProblemSet>,
+    /// Its index, from 0.
+    pub index: u64,
+}
+
+impl PartialEq for FiledProblem {
+    fn eq(&self, other: &Self) -> bool {
+        self.index == other.index && Arc::ptr_eq(&self.problems, &other.problems)
+    }
+}
+
+impl FiledProblem {
+    /// The problem.
+    pub fn made(&self) -> SetProblem {
+        let none = || SetProblem { task: Err(format!("no problem has the index {}", self.index)), known: None };
+        self.problems.problem(self.index).unwrap_or_else(none)
+    }
 }
 
 /// A problem of a scenario.
@@ -178,6 +204,14 @@ impl Over {
     pub fn numbers(&self) -> impl Iterator<Item = f64> {
         let coordinates = self.configurations().iter().flatten().map(|coordinate| coordinate.value());
         self.written().map(WrittenNumber::real).chain(coordinates)
+    }
+
+    /// The file of its problems, and whether it is a problem file rather than a scenario.
+    pub fn problem_file(&self) -> Option<(&str, bool)> {
+        match self {
+            Over::Problems(file) => Some((file, file.ends_with(".ron"))),
+            _ => None,
+        }
     }
 
     /// Their form, in words.

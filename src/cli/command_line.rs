@@ -3,8 +3,8 @@
 use clap::{CommandFactory, Parser, Subcommand};
 
 use super::commands::{
-    bare, capture, completions, describe, diff, export, grade, info, link, plan, plot, query, record, replay, script,
-    shrink, stats, sweep, verify, why, world,
+    bare, capture, completions, describe, diff, export, grade, info, link, plan, plot, problems, query, record, replay,
+    script, shrink, stats, sweep, verify, why, world,
 };
 
 use super::support::console::be_quiet;
@@ -67,6 +67,7 @@ enum CliCommand {
     Link(link::LinkArgs),
     Query(query::Query),
     Plan(Box<plan::PlanArgs>),
+    Problems(problems::Problems),
     Capture(Box<capture::Capture>),
     World(world::WorldArgs),
     Script(script::ScriptArgs),
@@ -126,6 +127,7 @@ impl Cli {
             Some(CliCommand::Why(why)) => why.run(data),
             Some(CliCommand::Shrink(shrink)) => shrink.run(data),
             Some(CliCommand::Plan(plan)) => plan.run(data),
+            Some(CliCommand::Problems(problems)) => problems.run(data),
             Some(CliCommand::Plot(plot)) => plot.run(data),
             Some(CliCommand::Query(query)) => query.run(data),
             Some(CliCommand::Capture(capture)) => capture.run(data),

@@ -50,6 +50,7 @@ const ORDER: [(&str, &[&str]); 5] = [
             "tasks",
             "export",
             "plans",
+            "problems",
             "avoid",
             "manifest",
             "capture",

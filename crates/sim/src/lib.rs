@@ -39,6 +39,8 @@ pub mod export;
 
 pub mod plans;
 
+pub mod problems;
+
 pub mod avoid;
 
 #[doc(hidden)]

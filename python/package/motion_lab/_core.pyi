@@ -30,6 +30,7 @@ __all__ = [
     "Obstacle",
     "Path",
     "Picture",
+    "Problem",
     "Reach",
     "Recorder",
     "Resident",
@@ -145,6 +146,23 @@ class Resident:
     def start(self) -> tuple[float, ...]: ...
     @property
     def robot(self) -> Robot | None: ...
+
+@final
+class Problem:
+    @staticmethod
+    def generate(
+        kind: str, *, seed: SupportsIndex | None = None, number: SupportsIndex | None = None, **settings: Any
+    ) -> Problem: ...
+    @property
+    def world(self) -> World: ...
+    @property
+    def robot(self) -> Robot: ...
+    @property
+    def start(self) -> tuple[float, ...]: ...
+    @property
+    def goal(self) -> tuple[float, ...]: ...
+    @property
+    def has_path(self) -> bool | None: ...
 
 @disjoint_base
 class Robot:

@@ -1,21 +1,20 @@
 //! What is compared, and what came of it.
 
 use std::ops::Range;
+use std::sync::Arc;
 use std::time::Instant;
 
 use motion_lab_core::planning::{Effort, NoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_sim::plans::{PathLengths, PlanAttempt, PlannerName, Task, solve_in_rounds};
 
-use super::case::PlanCase;
+use super::case::{AskedPath, PlanCase};
+use crate::batch::problem_set::{ProblemSet, SetProblem};
 
 /// What is compared: every planner works on every problem, from every seed.
 #[derive(Clone, Debug)]
 pub struct PlannerComparison {
-    /// The robot in its world. Each case says where its path begins and ends.
-    pub task: Task,
-    /// The problems, at least one.
-    pub cases: Vec<PlanCase>,
+    problems: ProblemSet,
     /// The planners.
     pub planners: Vec<PlannerName>,
     /// The seeds of the planners' samples.
@@ -24,6 +23,11 @@ pub struct PlannerComparison {
     /// number, and the first path is taken.
     pub iterations: Option<u64>,
 }
+
+/// Problems of several kinds of robot, whose planners and units are not the same.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the problems are for several kinds of robot: {}", .0.join(", "))]
+pub struct MixedKinds(pub Vec<&'static str>);
 
 /// The length of the best path after some iterations.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +42,7 @@ pub struct PathCost {
 #[derive(Clone, Debug)]
 pub struct ComparedAttempt {
     /// The problem.
-    pub case: PlanCase,
+    pub case: Arc<PlanCase>,
     /// The planner.
     pub planner: PlannerName,
     /// The seed.
@@ -68,14 +72,38 @@ pub struct NoProblem {
 impl PlannerComparison {
     /// Planners by a task's own problem.
     pub fn of(task: Task, planners: Vec<PlannerName>, seeds: Range<u64>) -> Self {
-        let cases = vec![PlanCase { ends: [task.start, task.goal], problem: None }];
-        PlannerComparison { task, cases, planners, seeds, iterations: None }
+        PlannerComparison { problems: ProblemSet::of_task(task), planners, seeds, iterations: None }
+    }
+
+    /// Planners by the problems of a file, which are for robots of one kind.
+    ///
+    /// # Errors
+    /// [`MixedKinds`]: they are not. [`ProblemSet::of_robot`] has those of one.
+    pub fn of_problems(
+        problems: ProblemSet,
+        planners: Vec<PlannerName>,
+        seeds: Range<u64>,
+    ) -> Result<Self, MixedKinds> {
+        match problems.kinds()[..] {
+            [] | [_] => Ok(PlannerComparison { problems, planners, seeds, iterations: None }),
+            ref kinds => Err(MixedKinds(kinds.iter().map(|kind| kind.name).collect())),
+        }
+    }
+
+    /// The problems.
+    pub fn problems(&self) -> &ProblemSet {
+        &self.problems
+    }
+
+    /// The unit of the paths' lengths.
+    pub fn unit(&self) -> &'static str {
+        self.problems.kinds().first().map_or("m", |kind| kind.unit_of(0))
     }
 
     /// The number of attempts.
     pub fn count(&self) -> u64 {
         let seeds = self.seeds.end.saturating_sub(self.seeds.start);
-        seeds.saturating_mul(self.planners.len() as u64).saturating_mul(self.cases.len() as u64)
+        seeds.saturating_mul(self.planners.len() as u64).saturating_mul(self.problems.len())
     }
 
     /// Makes all attempts, one after the other: by planner, problem and seed. Before each, and after every few
@@ -83,18 +111,17 @@ impl PlannerComparison {
     /// [`count`](Self::count) are those until it did not.
     ///
     /// # Errors
-    /// [`NoProblem`]: the problem is none, which is so for every planner and every seed. A scenario's problem that is
-    /// none has attempts without a path instead.
+    /// [`NoProblem`]: the problem is none, which is so for every planner and every seed. A file's problem that is none
+    /// has attempts without a path instead.
     pub fn run(&self, mut goes_on: impl FnMut(u64) -> bool) -> Result<Vec<ComparedAttempt>, NoProblem> {
         let mut done = Vec::new();
-        let mut task = self.task.clone();
         for &planner in &self.planners {
-            for case in &self.cases {
-                [task.start, task.goal] = case.ends;
+            for SetProblem { task, known } in (0..self.problems.len()).map_while(|index| self.problems.problem(index)) {
+                let case = Arc::new(PlanCase { known, asked: task.as_ref().ok().map(AskedPath::of) });
                 for seed in self.seeds.clone() {
                     let count = done.len() as u64;
                     let goes_on = || goes_on(count);
-                    let Some(attempt) = self.attempt(&task, case, (planner, Seed(seed)), goes_on)? else {
+                    let Some(attempt) = self.attempt(&task, &case, (planner, Seed(seed)), goes_on)? else {
                         return Ok(done);
                     };
                     done.push(attempt);
@@ -107,8 +134,8 @@ impl PlannerComparison {
     /// An attempt, or why there is no problem. `None` where it is not to go on.
     fn attempt(
         &self,
-        task: &Task,
-        case: &PlanCase,
+        task: &Result<Task, String>,
+        case: &Arc<PlanCase>,
         (planner, seed): (PlannerName, Seed),
         mut goes_on: impl FnMut() -> bool,
     ) -> Result<Option<ComparedAttempt>, NoProblem> {
@@ -117,7 +144,7 @@ impl PlannerComparison {
         }
         let begun = Instant::now();
         let none = |reason: String| ComparedAttempt {
-            case: *case,
+            case: Arc::clone(case),
             planner,
             seed,
             effort: Effort::default(),
@@ -125,9 +152,13 @@ impl PlannerComparison {
             path: Err(reason),
             costs: Vec::new(),
         };
+        let task = match task {
+            Ok(task) => task,
+            Err(reason) => return Ok(Some(none(reason.clone()))),
+        };
         let mut attempt = match task.attempt(planner, seed) {
             Ok(attempt) => attempt,
-            Err(reason @ NoPath::Problem(_)) if case.problem.is_none() => {
+            Err(reason @ NoPath::Problem(_)) if case.known.is_none() => {
                 return Err(NoProblem { planner, seed, reason });
             }
             Err(reason) => return Ok(Some(none(reason.to_string()))),

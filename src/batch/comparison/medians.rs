@@ -1,5 +1,7 @@
 //! `PlannerMedians`, what came of a planner at all its attempts.
 
+use std::collections::BTreeMap;
+
 use motion_lab_sim::export::JsonNumber;
 use motion_lab_sim::plans::{PathLengths, PlannerName};
 use serde::Serialize;
@@ -9,6 +11,9 @@ use super::compared::{ComparedAttempt, PlannerComparison};
 /// What came of one planner: medians over the attempts that have a path, `None` without any.
 #[derive(Clone, Debug, Serialize)]
 pub struct PlannerMedians {
+    /// The name of the set of problems, where a file has several.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub set: Option<String>,
     /// The planner's [name](PlannerName::id).
     pub planner: String,
     /// The number of attempts that have a path.
@@ -36,20 +41,34 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
 }
 
 impl PlannerComparison {
-    /// What came of each planner, in their order.
+    /// What came of each planner, in their order; of a file's sets, if there are several, one after the other. Numbers
+    /// of which there is no problem do not count.
     pub fn medians(&self, attempts: &[ComparedAttempt]) -> Vec<PlannerMedians> {
-        self.planners.iter().map(|planner| of_planner(*planner, attempts)).collect()
+        let names = self.problems().names();
+        let mut of_set: BTreeMap<&str, Vec<&ComparedAttempt>> = BTreeMap::new();
+        for attempt in attempts.iter().filter(|attempt| attempt.case.asked.is_some()) {
+            let name = attempt.case.known.as_ref().map_or("", |known| known.set.as_str());
+            of_set.entry(if names.len() < 2 { "" } else { name }).or_default().push(attempt);
+        }
+        let names = if names.len() < 2 { vec![""] } else { names };
+        let lines = names.into_iter().flat_map(|name| {
+            let own = of_set.remove(name).unwrap_or_default();
+            let set = (!name.is_empty()).then_some(name);
+            self.planners.iter().map(|planner| of_planner(set, *planner, &own)).collect::<Vec<_>>()
+        });
+        lines.collect()
     }
 }
 
-fn of_planner(planner: PlannerName, attempts: &[ComparedAttempt]) -> PlannerMedians {
-    let own: Vec<&ComparedAttempt> = attempts.iter().filter(|attempt| attempt.planner == planner).collect();
+fn of_planner(set: Option<&str>, planner: PlannerName, attempts: &[&ComparedAttempt]) -> PlannerMedians {
+    let own: Vec<&ComparedAttempt> = attempts.iter().copied().filter(|attempt| attempt.planner == planner).collect();
     let solved: Vec<(&ComparedAttempt, PathLengths)> =
         own.iter().filter_map(|attempt| Some((*attempt, *attempt.path.as_ref().ok()?))).collect();
     let of = |number: fn(&ComparedAttempt, PathLengths) -> f64| {
         median(solved.iter().map(|(attempt, path)| number(attempt, *path)).collect())
     };
     PlannerMedians {
+        set: set.map(str::to_owned),
         planner: planner.id().to_owned(),
         solved: solved.len(),
         attempts: own.len(),

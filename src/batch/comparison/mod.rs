@@ -18,10 +18,11 @@
 mod case;
 mod compared;
 mod medians;
+mod ompl;
 mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use case::{KnownProblem, PlanCase};
-pub use compared::{ComparedAttempt, NoProblem, PathCost, PlannerComparison};
+pub use case::{AskedPath, PlanCase};
+pub use compared::{ComparedAttempt, MixedKinds, NoProblem, PathCost, PlannerComparison};
 pub use medians::PlannerMedians;

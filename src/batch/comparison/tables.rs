@@ -4,11 +4,12 @@ use std::io::Write;
 
 use motion_lab_core::configuration::{AnyConfiguration, Configuration as _};
 use motion_lab_core::planning::Effort;
-use motion_lab_sim::capture::unit;
 use motion_lab_sim::plans::PathLengths;
 
+use super::case::AskedPath;
 use super::compared::{ComparedAttempt, PlannerComparison};
 use crate::batch::columns::{CellKind, Column};
+use crate::batch::problem_set::KnownProblem;
 use crate::batch::row::RowValue;
 use crate::batch::table::{TableError, TableWriter};
 
@@ -31,9 +32,11 @@ const OF_ATTEMPT: [(&str, CellKind, &str, &str); 15] = [
     (GOAL, CellKind::Text, "", "where it ends"),
 ];
 
-/// The columns that a scenario's problems have too.
-const OF_PROBLEM: [(&str, CellKind, &str, &str); 3] = [
-    ("problem", CellKind::Whole, "", "number of the problem in its scenario, from 1"),
+/// The columns that the problems of a file have too.
+const OF_PROBLEM: [(&str, CellKind, &str, &str); 5] = [
+    ("problem", CellKind::Whole, "", "number of the problem in its file, from 1"),
+    ("set", CellKind::Text, "", "its set; a scenario's name"),
+    ("known", CellKind::Text, "", "`path` or `none` where it is known whether there is one"),
     ("bucket", CellKind::Whole, "", "its bucket by the scenario"),
     ("optimal", CellKind::Number, "m", "length of the shortest way by the scenario"),
 ];
@@ -54,12 +57,12 @@ const GOAL: &str = "goal";
 
 impl PlannerComparison {
     fn is_of_problems(&self) -> bool {
-        self.cases.iter().any(|case| case.problem.is_some())
+        !self.problems().names().is_empty()
     }
 
     fn named(&self, column: &(&str, CellKind, &str, &str)) -> Column {
         let (name, kind, of, about) = *column;
-        let of = if of == PATH { unit(&self.task.robot) } else { of };
+        let of = if of == PATH { self.unit() } else { of };
         let name = if of.is_empty() { name.to_owned() } else { format!("{name}_{of}") };
         Column { name, kind, unit: of.to_owned(), about: about.to_owned() }
     }
@@ -88,13 +91,18 @@ impl PlannerComparison {
         cells.extend([iterations, samples, edges, free].map(RowValue::Whole));
         cells.extend([path_number(|path| path.length), path_number(|path| path.clearance)]);
         cells.push(path.as_ref().err().map_or(RowValue::Empty, RowValue::text));
-        cells.extend([&self.task.name, &self.task.world.name].map(RowValue::text));
-        cells.extend(case.ends.iter().map(numbers));
-        if self.is_of_problems() {
-            cells.extend(case.problem.map_or([RowValue::Empty, RowValue::Empty, RowValue::Empty], |problem| {
-                let number = RowValue::Whole(problem.number as u64);
-                [number, RowValue::Whole(problem.bucket), RowValue::Number(problem.optimal)]
-            }));
+        match &case.asked {
+            Some(AskedPath { robot, world, ends }) => {
+                cells.extend([robot, world].map(RowValue::text));
+                cells.extend(ends.iter().map(numbers));
+            }
+            None => cells.extend([(); 4].map(|()| RowValue::Empty)),
+        }
+        if let Some(known) = &case.known {
+            let KnownProblem { number, set, bucket, optimal, .. } = known;
+            cells.extend([RowValue::Whole(*number), RowValue::text(set)]);
+            cells.push(known.path_in_words().map_or(RowValue::Empty, RowValue::text));
+            cells.extend([bucket.map_or(RowValue::Empty, RowValue::Whole), RowValue::finite(*optimal)]);
         }
         cells
     }
@@ -122,7 +130,7 @@ impl PlannerComparison {
         let rows = attempts.iter().flat_map(|attempt| {
             attempt.costs.iter().map(|cost| {
                 let counts = [attempt.seed.0, cost.iterations].map(RowValue::Whole);
-                let number = attempt.case.problem.map(|problem| RowValue::Whole(problem.number as u64));
+                let number = attempt.case.known.as_ref().map(|known| RowValue::Whole(known.number));
                 let cells = [RowValue::text(attempt.planner.id())].into_iter().chain(counts);
                 cells.chain([RowValue::Number(cost.length)]).chain(number).collect()
             })

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::problems::unsuited;
-use crate::batch::axis::{CheckedAxis, Scenarios};
+use crate::batch::axis::{CheckedAxis, ProblemFiles};
 use crate::batch::columns::{MAX_ROBOT_COLUMNS, RobotColumns};
 use crate::batch::error::SweepProblem;
 use crate::batch::parameter::{Parameter, RobotParameter, RunParameter, Sources};
+use crate::batch::problem_set::ProblemSet;
 use crate::batch::study_text::{GoalText, NamedLength, StudyItem, StudyText, TicksText};
 use crate::batch::values::Over;
 use motion_lab_core::configuration::{RobotKind, Sizes, WrittenCoordinate};
@@ -79,6 +80,12 @@ fn check_goal_somewhere(robot: &str, at: &[f64], worlds: &[&World]) -> Result<()
     first.unwrap_or(Ok(())).map_err(SweepProblem::Outside)
 }
 
+/// Checks that the goal lies within every world of its robot.
+pub fn check_goal_everywhere(goal: &GoalText, worlds: &[World]) -> Result<(), String> {
+    let robot = &goal.robot;
+    goal_checks(robot, &goal.at(), worlds).collect::<Result<(), _>>().map_err(|reason| format!("{robot}: {reason}"))
+}
+
 /// Checks that a study with a planner says who goes where, and nothing else that drives its robot.
 pub fn check_planner(study: &StudyText) -> Result<(), (StudyItem, SweepProblem)> {
     let refused = |reason| Err((StudyItem::Planner, SweepProblem::Planner(reason)));
@@ -102,7 +109,7 @@ pub fn planned_unit(study: &StudyText, worlds: &[&World]) -> Option<&'static str
 pub fn make_axes(
     study: &StudyText,
     worlds: &[&World],
-    scenarios: &Scenarios,
+    files: &ProblemFiles,
 ) -> Result<Vec<CheckedAxis>, (StudyItem, SweepProblem)> {
     let mut axes: Vec<CheckedAxis> = Vec::with_capacity(study.axes.len());
     let robots: Vec<&Resident> =
@@ -120,13 +127,26 @@ pub fn make_axes(
             let meant = Parameter::meant(&text.vary, worlds);
             refused(SweepProblem::Parameter(there + &hint(meant.as_deref())))
         })?;
-        if let Some(before) = axes.iter().position(|axis| overlap(study.goal.as_ref(), &axis.parameter, &parameter)) {
+        let is_filed = |over: &Over| over.problem_file().is_some_and(|(_, is_filed)| is_filed);
+        let varies_twice = |axis: &CheckedAxis| {
+            overlap(study.goal.as_ref(), &axis.parameter, &parameter)
+                || (axis.filed().is_some() && is_of_a_problem(study.goal.as_ref(), &parameter))
+                || (is_filed(&text.over) && is_of_a_problem(study.goal.as_ref(), &axis.parameter))
+        };
+        if let Some(before) = axes.iter().position(varies_twice) {
             return Err(refused(SweepProblem::Twice(before)));
         }
-        let axis = CheckedAxis::try_new(parameter, Arc::clone(&text.over), scenarios).map_err(refused)?;
+        let axis = CheckedAxis::try_new(parameter, Arc::clone(&text.over), files).map_err(refused)?;
         let goals = robots.iter().find(|known| study.goal.as_ref().is_some_and(|goal| goal.robot == known.name));
         let is_problem = axis.parameter == Parameter::Run(RunParameter::Problem);
-        let unsuited = goals.filter(|_| is_problem).and_then(|resident| unsuited(&resident.kind));
+        let unsuited = goals.filter(|_| is_problem).and_then(|resident| match axis.filed() {
+            Some(problems) => of_another_robot(problems, resident),
+            None => unsuited(&resident.kind),
+        });
+        if axis.filed().is_some() && !(study.worlds.is_empty() && study.warehouse.is_none()) {
+            let reason = "each problem of the file has its own world: leave out worlds and warehouse";
+            return Err(refused(SweepProblem::Run(reason.into())));
+        }
         if let Some(reason) = axis.parameter.idle(&robots, there).or(unsuited) {
             return Err(refused(SweepProblem::Idle(reason)));
         }
@@ -143,6 +163,17 @@ pub fn make_axes(
     Ok(axes)
 }
 
+/// Why the problems of a file are none for this robot; `None` where they are.
+fn of_another_robot(problems: &ProblemSet, resident: &Resident) -> Option<String> {
+    let (names, kinds) = (problems.robots(), problems.kinds());
+    let is_own = names == [resident.name.as_str()] && matches!(kinds[..], [kind] if kind.name == resident.kind);
+    let kinds: Vec<&str> = kinds.iter().map(|kind| kind.name).collect();
+    let found = format!("{} ({})", names.join(", "), kinds.join(", "));
+    (!is_own).then(|| {
+        format!("its problems are for {found}, and the goal's robot is {}, a {}", resident.name, resident.kind)
+    })
+}
+
 /// Whether two parameters vary the same, wholly or in part. A problem is also where the goal's robot starts, and goes.
 fn overlap(goal: Option<&GoalText>, a: &Parameter, b: &Parameter) -> bool {
     use RobotParameter::{Coordinate, Start};
@@ -153,6 +184,17 @@ fn overlap(goal: Option<&GoalText>, a: &Parameter, b: &Parameter) -> bool {
     let is_problem = |of: &Parameter| *of == Parameter::Run(RunParameter::Problem);
     let is_end = |of: &Parameter| is_start(of) || matches!(of, Parameter::Goal { .. });
     a.overlaps(b) || (is_problem(a) && is_end(b)) || (is_end(a) && is_problem(b))
+}
+
+/// Whether a problem of a problem file says it: a world, or any coordinate of where the goal's robot starts.
+fn is_of_a_problem(goal: Option<&GoalText>, of: &Parameter) -> bool {
+    use RobotParameter::{Coordinate, Start};
+    use RunParameter::{WarehouseRobots, WarehouseSeed, World};
+    match of {
+        Parameter::Run(World | WarehouseRobots | WarehouseSeed) => true,
+        Parameter::Robot { robot, of: Start | Coordinate(_), .. } => goal.is_some_and(|goal| goal.robot == *robot),
+        _ => false,
+    }
 }
 
 /// Checks that each start or goal has the number of coordinates of some robot of this name.

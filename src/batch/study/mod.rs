@@ -2,13 +2,14 @@
 
 mod checks;
 mod draft;
+mod filed;
 mod problems;
 mod varied;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::axis::{CheckedAxis, Scenarios};
+use super::axis::{CheckedAxis, NamedProblems, ProblemFiles};
 use super::columns::{Column, RobotColumns, columns, heading, table_heading};
 use super::error::{PLAN_VERSION, SweepProblem};
 use super::parameter::{Parameter, RunParameter};
@@ -18,7 +19,7 @@ use super::study_text::{Bundle, FORMAT, GoalText, StudyItem, StudyText, digest_o
 use super::values::AxisValue;
 pub use varied::VariedAxis;
 
-use checks::{check, check_planner, check_robots, goal_checks, make_axes, planned_unit, robot_columns};
+use checks::{check, check_goal_everywhere, check_planner, check_robots, make_axes, planned_unit, robot_columns};
 use draft::{RunDraft, generated};
 use motion_lab_core::configuration::{Kinds, RobotKind, WrittenCoordinate};
 use motion_lab_core::random::Seed;
@@ -105,10 +106,16 @@ impl Study {
         for (name, text) in &bundle.scripts {
             scripts.insert(name.clone(), Script::parse(name, text).map_err(|error| whole(error.to_string()))?);
         }
-        let mut scenarios = Scenarios::new();
+        let mut files = ProblemFiles::new();
         for (name, text) in &bundle.scenarios {
             let scenario = Scenario::parse(name, text).map_err(|error| whole(error.to_string()))?;
-            scenarios.insert(name.clone(), Arc::new(scenario));
+            files.insert(name.clone(), NamedProblems::Scenario(Arc::new(scenario)));
+        }
+        let mut filed_worlds = Vec::new();
+        for (name, problems) in &bundle.problems {
+            let set = problems.set().map_err(|reason| whole(format!("{name}: {reason}")))?;
+            filed_worlds.extend(set.firsts().map(|task| task.world_at_start()));
+            files.insert(name.clone(), NamedProblems::Filed(Arc::new(set)));
         }
         if let Some(sensor) = bundle.study.sensor {
             RangeSensor::try_new(sensor.rays, sensor.range).map_err(|error| whole(error.to_string()))?;
@@ -117,10 +124,10 @@ impl Study {
             return Err((StudyItem::Version, SweepProblem::Version(bundle.study.version)));
         }
         let yard = bundle.study.warehouse.map(|text| generated(text).map_err(whole)).transpose()?;
-        let there: Vec<&World> = worlds.values().chain(&yard).collect();
+        let there: Vec<&World> = worlds.values().chain(&yard).chain(&filed_worlds).collect();
         check_robots(&bundle.study, &there)?;
         check_planner(&bundle.study)?;
-        let axes = make_axes(&bundle.study, &there, &scenarios)?;
+        let axes = make_axes(&bundle.study, &there, &files)?;
         let runs = bundle.study.points.count(&axes).map_err(|(axis, problem)| {
             let item = axis.map_or(StudyItem::Points, StudyItem::Axis);
             (item, problem)
@@ -216,11 +223,11 @@ impl Study {
                 draft.set(of, value)?;
             }
         }
-        let mut worlds = Vec::with_capacity(draft.worlds.len() + 1);
-        for name in &draft.worlds {
-            worlds.push(self.worlds.get(name).ok_or_else(|| format!("there is no world {name:?}"))?.clone());
-        }
-        worlds.extend(draft.warehouse.map(generated).transpose()?);
+        let filed = filed::task_of(&values)?;
+        let mut worlds = match &filed {
+            Some(task) => vec![task.world_at_start()],
+            None => self.worlds_of(&draft)?,
+        };
         worlds.iter_mut().for_each(|world| world.robots.retain(|robot| self.text.keeps(&robot.name)));
         if worlds.iter().all(|world| world.robots.is_empty()) {
             return Err("no robot takes part in this run".into());
@@ -232,13 +239,14 @@ impl Study {
                 of.apply(resident, value).map_err(|reason| format!("{}: {reason}", axis.parameter.name()))?;
             }
         }
-        let goal = match self.varied_goal(&values) {
-            Some(goal) => {
+        let goal = match (self.goal().map(|goal| problems::varied(goal, &self.axes, &values)), &filed) {
+            (Some(goal), Some(task)) => Some(filed::goal_at(&goal, task)?),
+            (Some(goal), None) => {
                 let problem = problems::placed(&goal, &values, &worlds)?;
                 problems::start_at(&goal, problem, &mut worlds);
                 Some(problems::goal_at(&goal, problem))
             }
-            None => None,
+            (None, _) => None,
         };
         for resident in worlds.iter_mut().flat_map(|world| &mut world.robots) {
             let Some(reason) = check(&resident.kind, resident.sizes.as_ref(), resident.sensor) else { continue };
@@ -265,21 +273,22 @@ impl Study {
         Ok(RunSetup { seed: Seed(draft.seed), config, length: draft.length, inputs })
     }
 
-    /// The goal with the configuration that a row gives it.
-    fn varied_goal(&self, values: &[AxisValue]) -> Option<GoalText> {
-        let mut goal = self.goal()?.clone();
-        for (axis, value) in self.axes.iter().zip(values) {
-            if let (Parameter::Goal { .. }, AxisValue::Configuration(at)) = (&axis.parameter, value) {
-                goal.at = at.iter().copied().map(WrittenCoordinate::number).collect();
-            }
+    fn worlds_of(&self, draft: &RunDraft) -> Result<Vec<World>, String> {
+        let mut worlds = Vec::with_capacity(draft.worlds.len() + 1);
+        for name in &draft.worlds {
+            worlds.push(self.worlds.get(name).ok_or_else(|| format!("there is no world {name:?}"))?.clone());
         }
-        Some(goal)
+        worlds.extend(draft.warehouse.map(generated).transpose()?);
+        Ok(worlds)
     }
 
     /// The goal of a row's run in its worlds.
     pub(super) fn goal_of(&self, row: u64, worlds: &[World]) -> Option<GoalText> {
         let values = self.values(row);
-        let goal = self.varied_goal(&values)?;
+        let goal = self.goal().map(|goal| problems::varied(goal, &self.axes, &values))?;
+        if let Ok(Some(task)) = filed::task_of(&values) {
+            return filed::goal_at(&goal, &task).ok();
+        }
         // where the map is another the run could not be
         let problem = problems::placed(&goal, &values, worlds).ok().flatten();
         Some(problems::goal_at(&goal, problem))
@@ -323,6 +332,11 @@ impl Study {
                 AxisValue::Number(x) => cells.push(RowValue::Number(x)),
                 AxisValue::Name(name) => cells.push(RowValue::text(name)),
                 AxisValue::Problem(problem) => cells.extend(problems::cells(&problem, self.goal(), &worlds)),
+                AxisValue::Filed(problem) => {
+                    let kinds = problem.problems.kinds();
+                    let of = |kind| filed::cells(&problem, kind, !filed::varies_sizes(self.goal(), &self.axes));
+                    cells.extend(kinds.first().map(|kind| of(kind)).unwrap_or_default());
+                }
                 AxisValue::Configuration(q) => {
                     let width = axis.parameter.configured().map_or(0, |kind| kind.coordinates.len());
                     cells.extend((0..width).map(|i| RowValue::finite(q.get(i).copied())));
@@ -375,10 +389,4 @@ impl Study {
         }
         row
     }
-}
-
-/// Checks that the goal lies within every world of its robot.
-fn check_goal_everywhere(goal: &GoalText, worlds: &[World]) -> Result<(), String> {
-    let robot = &goal.robot;
-    goal_checks(robot, &goal.at(), worlds).collect::<Result<(), _>>().map_err(|reason| format!("{robot}: {reason}"))
 }

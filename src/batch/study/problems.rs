@@ -1,5 +1,7 @@
 //! The problems of a study's scenario: what they change in a run, and what a row says of them.
 
+use crate::batch::axis::CheckedAxis;
+use crate::batch::parameter::Parameter;
 use crate::batch::row::RowValue;
 use crate::batch::study_text::GoalText;
 use crate::batch::values::{AxisValue, NumberedProblem, PlacedProblem};
@@ -21,6 +23,17 @@ pub fn placed(goal: &GoalText, values: &[AxisValue], worlds: &[World]) -> Result
     let lives = |world: &&World| world.robots.iter().any(|resident| resident.name == goal.robot);
     let world = worlds.iter().find(lives);
     problem_of(values).zip(world).map(|(problem, world)| problem.placed(&world.bounds)).transpose()
+}
+
+/// The goal with the configuration that a row gives it.
+pub fn varied(goal: &GoalText, axes: &[CheckedAxis], values: &[AxisValue]) -> GoalText {
+    let mut goal = goal.clone();
+    for (axis, value) in axes.iter().zip(values) {
+        if let (Parameter::Goal { .. }, AxisValue::Configuration(at)) = (&axis.parameter, value) {
+            goal.at = at.iter().copied().map(WrittenCoordinate::number).collect();
+        }
+    }
+    goal
 }
 
 /// The goal with the place of a problem's. Its heading stays.

@@ -1,6 +1,7 @@
 //! Plans, points, rows and parts.
 
 mod by_log;
+mod filed;
 mod files;
 mod problems;
 mod rows;
@@ -69,4 +70,27 @@ const GOAL: &str =
 /// A study of two problems, of Rusty.
 fn of_problems() -> Result<Study, StudyError> {
     try_problems(GOAL, "")
+}
+
+/// A problem file of these sets, which may name the lot.
+fn filed_bundle(sets: &str) -> ProblemBundle {
+    let file = ProblemFile::parse("p.ron", &format!("Problems(version: 1, sets: [{sets}])")).unwrap();
+    file.bundle(&[("lot".to_owned(), World::lot())].into(), &[].into())
+}
+
+/// A study of the problems of such a file.
+fn try_filed(sets: &str, more: &str, axes: &str) -> Result<Study, String> {
+    let text = format!("Sweep(version: 1, {more} axes: [{axes}(vary: \"problem\", over: Problems(\"p.ron\"))])");
+    let file = StudyFile::parse("study.ron", &text).map_err(|error| error.to_string())?;
+    assert!(file.problem_file_names().into_iter().eq(["p.ron"]) && file.scenario_names().is_empty());
+    let worlds = file.world_names().into_iter().map(|name| (name.to_owned(), World::built_in(name).unwrap()));
+    let worlds = worlds.collect();
+    let file = file.with_problems([("p.ron".to_owned(), filed_bundle(sets))].into());
+    file.with(&worlds, &[].into()).map_err(|error| error.to_string())
+}
+
+/// A study of these problems, for a robot with as many tolerances.
+fn of_robot(sets: &str, robot: &str, at: &str) -> Study {
+    let more = format!("robots: [{robot:?}], planner: (), goal: (robot: {robot:?}, at: {at}, within: {at}),");
+    try_filed(sets, &more, "").unwrap()
 }

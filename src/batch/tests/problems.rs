@@ -78,7 +78,7 @@ fn problems_without_a_robot_that_has_them_are_refused() {
     let apartment = [("apartment".to_owned(), World::apartment())].into();
     let error = |file: StudyFile| file.with(&apartment, &[].into()).unwrap_err().to_string();
     let names = error(values("problem", "Names([\"y.map.scen\"])"));
-    assert!(names.ends_with("names do not fit: it takes Problems(\"FILE.scen\")"), "{names}");
+    assert!(names.ends_with("names do not fit: it takes Problems(\"FILE\")"), "{names}");
     let seeds = error(values("seed", "Problems(\"y.map.scen\")"));
     assert!(seeds.contains("problems do not fit: it takes Range(FROM, TO)"), "{seeds}");
     let missing = error(values("problem", "Problems(\"y.map.scen\")"));

@@ -13,6 +13,7 @@ pub(crate) mod link;
 pub(crate) mod open;
 pub(crate) mod plan;
 pub(crate) mod plot;
+pub(crate) mod problems;
 pub(crate) mod query;
 pub(crate) mod record;
 pub(crate) mod replay;

@@ -23,7 +23,7 @@ const READ: [&str; 11] = [
 
 /// Options that name files to write, each with command lines that write `OUT` while they read `IN`, and the file that
 /// they read.
-const WRITTEN: [(&str, &[(&str, &str)]); 26] = [
+const WRITTEN: [(&str, &[(&str, &str)]); 28] = [
     (
         "record --output",
         &[
@@ -72,6 +72,14 @@ const WRITTEN: [(&str, &[(&str, &str)]); 26] = [
         &[("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --compare rrt --seeds 0..1 --costs OUT", "wb.ron")],
     ),
     (
+        "plan --ompl",
+        &[
+            ("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --compare rrt --seeds 0..1 --ompl OUT", "wb.ron"),
+            ("plan --problems IN --robot reach --compare rrt --ompl OUT", "problems.ron"),
+        ],
+    ),
+    ("problems --output", &[("problems IN --problem 1 -o OUT", "problems.ron")]),
+    (
         "plan --csv",
         &[
             ("plan --world IN --robot Reach --from 2,0 --to 2.1,0 --compare rrt --seeds 0..1 --csv OUT", "wb.ron"),
@@ -116,6 +124,8 @@ pub fn folder() -> tempfile::TempDir {
     run_in(at, &["world", "show", "workbench", "-o", "wb.ron"]).done();
     run_in(at, &["world", "export", "lot", "--resolution", "0.5", "-o", "map.yaml"]).done();
     fs::write(at.join("lot.map.scen"), "0 lot.map 16 10 6 6 7 6 1\n").unwrap();
+    let near = "world: \"workbench\", robot: \"reach\", starts: [[2, 0]], goals: [[2.1, 0]]";
+    fs::write(at.join("problems.ron"), format!("Problems(version: 1, sets: [Paired({near})])")).unwrap();
     fs::write(at.join("table.csv"), "tick,robot,input\n1,Hitch,Drive,1,0\n").unwrap();
     run_in(at, &["script", "convert", "table.csv", "-o", "drive.ron"]).done();
     fs::write(

@@ -69,15 +69,15 @@ fn planners_are_compared_by_every_problem_of_a_scenario() {
     assert_eq!(head.last().unwrap().trim(), "of optimal", "{table}");
     assert!(table.lines().nth(1).unwrap().contains("2 of 4"), "{table}");
     let rows = fs::read_to_string(folder.path().join("rows.csv")).unwrap();
-    assert!(rows.lines().next().unwrap().ends_with(",start,goal,problem,bucket,optimal_m"), "{rows}");
+    assert!(rows.lines().next().unwrap().ends_with(",start,goal,problem,set,known,bucket,optimal_m"), "{rows}");
     assert_eq!(column(&rows, "solved"), ["true", "true", "false", "false"].repeat(2));
-    assert_eq!(last_column(&rows, 2), [1.0, 2.0, 3.0, 4.0].repeat(2));
+    assert_eq!(last_column(&rows, 4), [1.0, 2.0, 3.0, 4.0].repeat(2));
     assert_eq!(last_column(&rows, 1), [0.0, 2.0, 3.0, 7.0].repeat(2));
     // lengths in cells of 2 m
     assert_eq!(last_column(&rows, 0), [10.0, 11.3137085, 0.0, 10.0].repeat(2));
     // cell (x, y) of 5 rows has its middle at (x + 0.5, 5 - y - 0.5) cells
-    assert!(rows.lines().nth(2).unwrap().contains("rusty,m,\"9,7,0\",\"9,3,0\",2,2,"), "{rows}");
-    assert!(rows.lines().nth(1).unwrap().contains(",\"1,9,0\",\"11,9,0\",1,0,10"), "{rows}");
+    assert!(rows.lines().nth(2).unwrap().contains("Rusty,m,\"9,7,0\",\"9,3,0\",2,m.map.scen,,2,"), "{rows}");
+    assert!(rows.lines().nth(1).unwrap().contains(",\"1,9,0\",\"11,9,0\",1,m.map.scen,,0,10"), "{rows}");
     assert!(rows.lines().nth(4).unwrap().contains("the start would overlap box "), "{rows}");
     // the first problem is a straight line of the shortest length, of which the median is 1; the second goes round the
     // end of the first wall, from (9, 7) by its corner (6, 6) to (9, 3), with the radius and the tube of 13 cm
@@ -94,6 +94,28 @@ fn planners_are_compared_by_every_problem_of_a_scenario() {
     let plain = run_in(folder.path(), &plain).done();
     let rows = fs::read_to_string(folder.path().join("rows.csv")).unwrap();
     assert!(!plain.contains("optimal") && rows.lines().next().unwrap().ends_with(",start,goal"), "{plain} {rows}");
+}
+
+#[test]
+fn a_scenario_in_a_problem_file_has_the_rows_of_the_scenario_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    with_scenario(folder.path());
+    let file = "Problems(version: 1, sets: [Scenario(file: \"m.map.scen\", world: \"m.ron\", robot: \"rusty\")])";
+    fs::write(folder.path().join("p.ron"), file).unwrap();
+    let rows = |more: &[&str]| {
+        let compare = ["plan", "--compare", "visibility-graph", "--iterations", "3000", "--csv", "rows.csv"];
+        run_in(folder.path(), &[&compare[..], more].concat()).done();
+        let table = fs::read_to_string(folder.path().join("rows.csv")).unwrap();
+        // the time differs from run to run
+        let line = |line: &str| {
+            let cells: Vec<&str> = line.splitn(5, ',').collect();
+            [&cells[..3], &cells[4..]].concat().join(",")
+        };
+        table.lines().map(line).collect::<Vec<_>>()
+    };
+    let alone = rows(&["--robot", "rusty", "--world", "m.ron", "--problems", "m.map.scen"]);
+    assert_eq!((rows(&["--problems", "p.ron"]), alone.len()), (alone.clone(), 5));
+    assert!(alone[2].ends_with(",2,m.map.scen,,2,11.3137085"), "{alone:?}");
 }
 
 #[test]
@@ -116,7 +138,9 @@ fn problems_that_do_not_fit_are_refused_by_name() {
     let said = compare(&["bad.scen", "--robot", "rusty", "--world", "m.ron"], 3);
     assert!(said.contains("bad.scen:3: start: cell (4, 5) of 9 x 5"), "{said}");
     let said = run_in(folder.path(), &["plan", "--robot", "rusty", "--problems", "m.map.scen"]).failed(2);
-    assert!(said.contains("--compare"), "{said}");
+    assert!(said.contains("--compare") && said.contains("--problem"), "{said}");
+    let said = compare(&["m.map.scen", "--world", "m.ron"], 2);
+    assert!(said.contains("no robot") && said.contains("--robot"), "{said}");
     // a car is planned too, as its own start says which way it faces
     let car = ["m.map.scen", "--robot", "hitch", "--world", "m.ron", "--iterations", "20", "--compare"];
     let arguments = [&["plan", "--problems"][..], &car, &["hybrid-a-star"]].concat();

@@ -8,4 +8,5 @@ pub mod clearance;
 pub mod comparisons;
 pub mod narrow_gap;
 pub mod plan;
+pub mod problems;
 pub mod queries;

@@ -243,7 +243,7 @@ fn a_planner_at_work_is_stopped() {
 
 #[test]
 fn the_examples_are_plans_whose_runs_can_be() {
-    for (name, runs) in [("noise.ron", 1000), ("planners.ron", 300)] {
+    for (name, runs) in [("noise.ron", 1000), ("planners.ron", 300), ("problems.ron", 252)] {
         let study = format!("{}/examples/sweeps/{name}", env!("CARGO_MANIFEST_DIR"));
         let listed = run_in(&std::env::temp_dir(), &["sweep", &study, "--check"]);
         assert!(listed.err.contains(&format!("{runs} runs, varying ")), "{}", listed.err);

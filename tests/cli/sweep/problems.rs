@@ -1,4 +1,5 @@
-//! `sweep` of the problems of a MovingAI scenario, in the world that `world import` makes of its map.
+//! `sweep` of the problems of a MovingAI scenario, in the world that `world import` makes of its map, and of a problem
+//! file.
 
 use std::fs;
 
@@ -60,4 +61,61 @@ fn every_problem_of_a_scenario_is_a_run() {
     fs::write(at.join("m.map.scen"), SCENARIO.replace("\t9\t5\t", "\t9\t6\t")).unwrap();
     let other = run_in(at, &["sweep", "plan.ron", "--check"]).failed(3);
     assert!(other.contains("m.map.scen: 9 x 6 cells do not fill the world's bounds, 4.5 x 2.5 m"), "{other}");
+}
+
+/// Pairs in the Apartment, and mazes of which two are closed.
+const FILE: &str = "Problems(version: 1, sets: [
+    Crossed(name: \"rooms\", world: \"apartment\", robot: \"Rusty\", starts: [[1.5, 5.75]], goals: [[4, 2], [1.7, 5.75]]),
+    Generated(of: Maze(columns: 3, rows: 3), count: 2, seed: 4),
+    Generated(name: \"shut\", of: Maze(columns: 3, rows: 3, closed: true), count: 2)])";
+
+const FILED: &str = "Sweep(version: 1, planner: (iterations: 2000),
+    goal: (robot: \"Rusty\", at: [0, 0, 0], within: [0.1, 0.1, 4]),
+    axes: [(vary: \"planner\", over: Names([\"rrt-connect\", \"prm\"])),
+        (vary: \"problem\", over: Problems(\"sub/p.ron\")), (vary: \"seed\", over: Range(3, 5))])";
+
+#[test]
+fn every_problem_of_a_problem_file_is_a_row_with_the_path_of_the_comparison() {
+    let folder = folder_with(FILED);
+    let at = folder.path();
+    fs::create_dir(at.join("sub")).unwrap();
+    fs::write(at.join("sub/p.ron"), FILE).unwrap();
+    let swept = run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
+    assert!(swept.contains("24 runs, 24 of them made now; 8 failed, of which 8 could not be run"), "{swept}");
+    run_in(at, &["sweep", "merge", "parts", "-o", "all.csv", "-o", "all.parquet"]).done();
+    let of_sweep = fs::read_to_string(at.join("all.csv")).unwrap();
+    let compare = ["plan", "--compare", "rrt-connect,prm", "--problems", "sub/p.ron", "--iterations", "2000"];
+    run_in(at, &[&compare[..], &["--seeds", "3..5", "--csv", "rows.csv"]].concat()).done();
+    let of_comparison = fs::read_to_string(at.join("rows.csv")).unwrap();
+    let (swept, compared) = (rows(&of_sweep), rows(&of_comparison));
+    assert_eq!((swept.len(), compared.len()), (24, 24));
+    let mut solved = 0;
+    for (row, attempt) in swept.iter().zip(&compared) {
+        for (name, other) in [
+            ("planner", "planner"),
+            ("seed", "seed"),
+            ("problem", "problem"),
+            ("problem.set", "set"),
+            ("problem.known", "known"),
+            ("iterations", "iterations"),
+            ("edges", "edges"),
+            ("planned_path_m", "length_m"),
+            ("planned_clearance_m", "clearance_m"),
+        ] {
+            assert_eq!(row(name), attempt(other), "{name} of problem {}", row("problem"));
+        }
+        assert_eq!(row("solved") == "1", attempt("solved") == "true");
+        solved += usize::from(row("solved") == "1");
+    }
+    assert_eq!(solved, 16, "all but those of closed mazes");
+    let report = run_in(at, &["sweep", "report", "all.parquet", "-o", "-"]).done();
+    assert!(report.contains("By problem.set") && report.contains(">shut<"), "{}", &report[..2000]);
+    run_in(at, &["sweep", "reproduce", "all.parquet", "--row", "5"]).done();
+    // with a length the path is played in the problem's own world
+    fs::write(at.join("plan.ron"), FILED.replace("planner: (", "ticks: Planned, planner: (")).unwrap();
+    let played = run_in(at, &["sweep", "plan.ron", "-o", "played", "--shard", "1/4"]).done();
+    assert!(played.contains("6 runs, 6 of them made now; none failed"), "{played}");
+    fs::write(at.join("sub/p.ron"), FILE.replace("count: 2", "count: 0")).unwrap();
+    let refused = run_in(at, &["sweep", "plan.ron", "--check"]).failed(3);
+    assert!(refused.contains("plan.ron:4:") && refused.contains("sub/p.ron:3:5: sets[1]"), "{refused}");
 }

@@ -95,10 +95,10 @@ impl Task {
     /// The same task in a world without these things.
     fn without(&self, gone: &BTreeSet<Blocker>) -> Task {
         let is_gone = |name: &str| gone.iter().any(|blocker| blocker.name == name);
-        let mut world = self.world.clone();
+        let mut world = World::clone(&self.world);
         world.obstacles.retain(|obstacle| !is_gone(&obstacle.name));
         world.doors.iter_mut().filter(|door| is_gone(&door.name)).for_each(|door| door.open = true);
-        Task { scene: Arc::new(Scene::of_world(&world)), world, ..self.clone() }
+        Task { scene: Arc::new(Scene::of_world(&world)), world: Arc::new(world), ..self.clone() }
     }
 
     fn decide(&self) -> Decision {

@@ -40,7 +40,7 @@ pub struct Task {
     /// The robot, a car with its trailer if it starts with one.
     pub robot: AnyRobot,
     /// The world.
-    pub world: World,
+    pub world: Arc<World>,
     /// Its scene.
     pub scene: Arc<Scene>,
     /// Where the path begins.
@@ -63,7 +63,17 @@ pub struct Task {
 impl Task {
     /// The task of a robot in a world, from `start` to `goal`, both of its own configurations.
     pub fn new(name: impl Into<String>, robot: AnyRobot, world: World, ends: [AnyConfiguration; 2]) -> Self {
-        let (scene, [start, goal]) = (Arc::new(Scene::of_world(&world)), ends);
+        let scene = Arc::new(Scene::of_world(&world));
+        Self::in_scene(name, robot, (Arc::new(world), scene), ends)
+    }
+
+    /// The task of a robot in a world and its scene, which other tasks may share.
+    pub fn in_scene(
+        name: impl Into<String>,
+        robot: AnyRobot,
+        (world, scene): (Arc<World>, Arc<Scene>),
+        [start, goal]: [AnyConfiguration; 2],
+    ) -> Self {
         Task {
             name: name.into(),
             robot,
@@ -93,7 +103,14 @@ impl Task {
         let new = || Resident::new(self.robot.title(), kind, self.start.coordinates().to_vec());
         let resident = named.cloned().unwrap_or_else(new);
         let name = resident.name.clone();
-        (World { robots: vec![resident], ..self.world.clone() }, name)
+        (World { robots: vec![resident], ..World::clone(&self.world) }, name)
+    }
+
+    /// The world with the robot [alone](Self::alone) in it, where the path begins.
+    pub fn world_at_start(&self) -> World {
+        let (mut world, _) = self.alone();
+        world.robots.iter_mut().for_each(|resident| resident.start = self.start.coordinates().to_vec());
+        world
     }
 
     /// The path of an attempt at this task, played by the robot alone in the world, which is returned too; no path

@@ -25,8 +25,8 @@ use std::path::PathBuf;
 /// With --checker parry the planner asks the book's black box instead. Nothing of its path is proven: it may lead
 /// through a wall, and can't be played.
 ///
-/// With --compare several planners work on the same problem, or by --problems on all of a scenario, at several seeds;
-/// --csv has a row for each attempt.
+/// With --compare several planners work on the same problem, or by --problems on all of a file, at several seeds; --csv
+/// has a row for each attempt, --ompl the same for OMPL's tools.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -36,7 +36,9 @@ Examples:
   motion-lab plan --robot Rusty --world shut.ron --to 9.75,6.25 --barrier proof.json
   motion-lab plan --robot Rusty --world shut.ron --to 9.75,6.25 --what-blocks
   motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv
-  motion-lab plan --compare rrt-connect,a-star --robot rusty --world arena.ron --problems arena.scen --csv all.csv")]
+  motion-lab plan --compare rrt-connect,a-star --robot rusty --world arena.ron --problems arena.scen --csv all.csv
+  motion-lab plan --compare rrt-connect,prm --problems mazes.ron --seeds 0..10 --csv all.csv
+  motion-lab plan --problems mazes.ron --problem 3 --svg third.svg")]
 pub struct PlanArgs {
     /// The planner. [default: hybrid-a-star for a car, rrt-connect for any other robot]
     #[arg(long, value_name = "PLANNER", value_parser = planner_name(), conflicts_with = "compare")]
@@ -44,8 +46,10 @@ pub struct PlanArgs {
     /// The robot: a resident of the world by its name, with the sizes that the world says; else one of a kind: rusty
     /// (x,y), reach (th1,th2), choset (the same arm without thickness), reach3 (th1,th2,th3), hitch (x,y,theta;
     /// with the trailer x,y,theta,psi).
+    /// Of a problem file the problems of this robot or kind.
     #[arg(long, value_name = "NAME|KIND", value_parser = RobotsAndKinds, hide_possible_values = true)]
-    pub(super) robot: String,
+    #[arg(required_unless_present = "problems")]
+    pub(super) robot: Option<String>,
     /// A built-in world or the path of a world file; the robot's home when left out.
     #[arg(long, value_name = "NAME|FILE", value_parser = WorldNames, hide_possible_values = true)]
     pub(super) world: Option<String>,
@@ -111,10 +115,14 @@ pub struct PlanArgs {
     /// Compare these planners, joined by commas.
     #[arg(long, value_parser = planner_name(), value_delimiter = ',', value_name = "PLANNERS")]
     pub(super) compare: Vec<PlannerName>,
-    /// Compare them by every problem of this MovingAI scenario, from start to goal; the world is that of its map.
-    #[arg(long, value_name = "FILE", requires = "compare", conflicts_with_all = ["from", "to"])]
+    /// Take the problems of this file: a problem file, which ends in .ron and says worlds, robots, starts and goals, or
+    /// a MovingAI scenario, whose world is that of its map. With --compare all of them, else the one of --problem.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["from", "to"])]
     pub(super) problems: Option<PathBuf>,
-    /// The seeds of a comparison, without the last. [default: 0..100; of a scenario's problems 0..1]
+    /// The number of one of these problems, from 1; `motion-lab problems` lists them.
+    #[arg(long, value_name = "N", requires = "problems", conflicts_with = "compare")]
+    pub(super) problem: Option<u64>,
+    /// The seeds of a comparison, without the last. [default: 0..100; of a file's problems 0..1]
     #[arg(long, value_name = "A..B", requires = "compare")]
     pub(super) seeds: Option<SeedRange>,
     /// Write a row for each attempt of a comparison to this file: as Parquet if its name ends so, else as CSV.
@@ -124,6 +132,11 @@ pub struct PlanArgs {
     /// attempt had its first path, and each shorter one.
     #[arg(long, value_name = "FILE", requires = "compare")]
     pub(super) costs: Option<PathBuf>,
+    /// Write a comparison to this file in the grammar of OMPL's benchmark logs, which ompl_benchmark_statistics.py and
+    /// Planner Arena read: an experiment of one problem. Of several problems each has a file of its own, with the
+    /// problem's number before the ending.
+    #[arg(long, value_name = "FILE", requires = "compare")]
+    pub(super) ompl: Option<PathBuf>,
     #[command(flatten)]
     pub(super) paper: PaperArgs,
 }

@@ -6,13 +6,13 @@ mod answer;
 mod args;
 mod barrier_file;
 mod blockers;
-mod cases;
 mod compare;
 pub mod drawing;
 mod exact;
 pub mod film;
 pub mod planners;
 mod play;
+mod problems;
 mod rounds;
 mod targets;
 pub mod task;
@@ -35,7 +35,6 @@ use answer::PlanAnswer;
 pub use args::PlanArgs;
 use barrier_file::BarrierFile;
 use blockers::BlockersAnswer;
-use cases::Cases;
 pub use rounds::solve;
 use targets::PlanTargets;
 
@@ -54,8 +53,10 @@ impl PlanArgs {
             let reason = format!("a clearance that is kept is proven, and {} proves nothing", self.checker.id());
             return Err(Failure::usage(reason, "Leave out --checker, or --clearance."));
         }
-        let Cases { task, all } = Cases::of(&self)?;
-        let task = Task { checker: self.checker, clearance: self.clearance, ..task };
+        if !self.compare.is_empty() {
+            return compare::compare(&self, problems::all(&self)?, data);
+        }
+        let task = problems::one(&self)?;
         if let (false, Some(option)) = (task.checker.proves(), self.asks_for_cells()) {
             let reason = format!("{option} rests on proofs, and {} proves nothing", task.checker.id());
             return Err(Failure::usage(reason, format!("Leave out --checker, or {option}.")));
@@ -63,9 +64,6 @@ impl PlanArgs {
         if !task.checker.proves() && (self.script.is_some() || self.record.is_some()) {
             let reason = format!("a script plays a path that is proven, and {} proves nothing", task.checker.id());
             return Err(Failure::usage(reason, "Leave out --checker, or --script and --record."));
-        }
-        if !self.compare.is_empty() {
-            return compare::compare(&self, task, all, data);
         }
         let name = self.planner_for(&task)?;
         let targets = PlanTargets::of(&self)?;

@@ -77,6 +77,11 @@ impl Chosen {
         Ok((Chosen::find(name, &world)?, world))
     }
 
+    /// Whether it goes from place to place, as an arm does not.
+    pub fn goes_places(&self) -> bool {
+        self.about.lengths >= 2
+    }
+
     /// The name of its kind, as worlds have it.
     pub fn kind_name(&self) -> &'static str {
         self.about.name

@@ -10,7 +10,7 @@ use crate::cli::commands::plan::planners::planners;
 use crate::cli::support::console::note;
 use crate::cli::support::input::{read_text, shown};
 use crate::cli::support::words::parse_script;
-use crate::cli::support::world_source::{find_world_beside, read_scenario};
+use crate::cli::support::world_source::{find_world_beside, read_bundle, read_scenario};
 
 /// The study in a file. Files that it names lie where it says, seen from its own folder.
 pub fn study(path: &Path) -> Result<Study, Failure> {
@@ -38,7 +38,12 @@ pub fn study(path: &Path) -> Result<Study, Failure> {
         let scenario = read_scenario(&path.parent().unwrap_or(Path::new("")).join(name));
         scenarios.insert(name.to_owned(), scenario.map_err(|failure| named_at(name, failure))?);
     }
-    let file = file.with_scenarios(scenarios);
+    let mut problems = BTreeMap::new();
+    for name in file.problem_file_names() {
+        let bundle = read_bundle(&path.parent().unwrap_or(Path::new("")).join(name));
+        problems.insert(name.to_owned(), bundle.map_err(|failure| named_at(name, failure))?);
+    }
+    let file = file.with_scenarios(scenarios).with_problems(problems);
     let study = file.with(&worlds, &scripts).map_err(refused)?;
     study.turns().into_iter().for_each(|turns| note(format!("{}: {turns}", shown(path))));
     Ok(study)

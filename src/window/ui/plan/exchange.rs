@@ -47,7 +47,7 @@ impl PlanState {
         let [of, robot_name] = file.names();
         let built_in = || World::built_in_names().into_iter().filter_map(World::built_in).find(|w| w.name == of);
         let world =
-            if world.name == of { world.clone() } else { built_in().unwrap_or_else(|| self.task.world.clone()) };
+            if world.name == of { world.clone() } else { built_in().unwrap_or_else(|| World::clone(&self.task.world)) };
         let resident = world.robots.iter().find(|r| r.name == robot_name).and_then(AnyRobot::of_resident);
         let resident = resident.map(|(robot, _)| robot).filter(|robot| robot.like(&start).is_some());
         let robot = resident.unwrap_or(kind);

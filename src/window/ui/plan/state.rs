@@ -90,7 +90,7 @@ impl PlanState {
     /// A task, with the planner that suits its robot.
     pub fn of(task: Task) -> Self {
         let drawn = nothing(&task);
-        let known = |name: &&str| World::built_in(name).as_ref() == Some(&task.world);
+        let known = |name: &&str| World::built_in(name).as_ref() == Some(&*task.world);
         let mut state = PlanState {
             known_as: World::built_in_names().into_iter().find(known),
             planner: PlannerName::default_for(&task.robot),

@@ -121,7 +121,7 @@ fn who_plays_lives_alone_in_the_tasks_world() {
     assert_eq!((name.as_str(), world.robots.len(), &world.obstacles), ("Reach", 1, &World::workbench().obstacles));
     let (world, name) = trailer.alone();
     assert_eq!((name.as_str(), world.robots.len()), ("Hitch", 1), "the lot's own car");
-    let empty = Task { world: World { robots: vec![], ..World::workbench() }, ..reach };
+    let empty = Task { world: Arc::new(World { robots: vec![], ..World::workbench() }), ..reach };
     let (world, name) = empty.alone();
     assert_eq!((name.as_str(), &world.robots[0].start[..]), ("Reach", &[2.0, 0.0][..]), "a new one at the start");
 }

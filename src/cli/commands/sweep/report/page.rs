@@ -32,7 +32,7 @@ pub fn page(gathered: &Gathered, file: &Path, paper: &Paper, site: &str) -> Stri
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{name}: {runs}</title>\n\
              <meta name=\"viewport\" content=\"width=device-width\">\n<style>\n\
-             :root {{ color-scheme: light dark; font-family: sans-serif; }}\nbody {{ margin: 1rem auto; max-width: 80rem; }}\n\
+             :root {{ color-scheme: light dark; font-family: sans-serif; }}\nbody {{ margin: 1rem auto; padding: 0 1rem; max-width: 80rem; }}\n\
              svg, img {{ max-width: 100%; height: auto; }}\n.wide {{ overflow-x: auto; }}\n\
              td, th {{ padding: 0.2rem 0.6rem; text-align: left; vertical-align: top; }}\n</style>\n</head>\n<body>\n\
              <h1>{name}</h1>\n<p>{runs}, {failed} of them failed. Study {}.</p>\n",
