@@ -89,17 +89,13 @@ fn of_axis(axis: &CheckedAxis) -> Vec<Column> {
 /// What a row says of a problem of a problem file.
 fn of_filed(problems: &ProblemSet) -> Vec<Column> {
     let known = "`path` or `none` where it is known whether there is one";
+    let [_, bucket, .., optimal] = OF_PROBLEM.map(|(name, kind, unit, about)| column(name, kind, unit, about));
     let mut columns = vec![
         column("problem", CellKind::Whole, "", "number of the problem in its file, from 1"),
         column("problem.set", CellKind::Text, "", "its set"),
         column("problem.known", CellKind::Text, "", known),
-        column("problem.bucket", CellKind::Whole, "", "its bucket by the scenario"),
-        column(
-            "problem.optimal",
-            CellKind::Number,
-            "m",
-            "length of the shortest way in eight directions by the scenario",
-        ),
+        bucket,
+        optimal,
     ];
     for (end, about) in [("start", "where the robot starts"), ("goal", "where it should go")] {
         let of = |(c, unit)| column(format!("problem.{end}.{c}"), CellKind::Number, unit, about);

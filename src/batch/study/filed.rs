@@ -28,7 +28,7 @@ pub fn goal_at(goal: &GoalText, task: &Task) -> Result<GoalText, String> {
 }
 
 /// What a row says of its problem: number, set, what is known of a path by a robot of the problem's own sizes, bucket
-/// and shortest length of a scenario's, and both ends; nothing of these where there is no problem of the number.
+/// and shortest length of a scenario's, and both ends; of what its making tells nothing where there is none.
 pub fn cells(problem: &FiledProblem, kind: &RobotKind, has_own_sizes: bool) -> Vec<RowValue> {
     let made = problem.made();
     let mut cells = Vec::new();

@@ -34,8 +34,8 @@ pub fn find_world(name: &str) -> Result<World, Failure> {
 
 /// The world that a file names: the built-in one, else a file seen from that file's own folder, else one at that path.
 pub fn find_world_beside(file: &Path, name: &str) -> Result<World, Failure> {
-    let beside = file.parent().unwrap_or(Path::new("")).join(name);
-    if World::built_in(name).is_none() && beside.exists() { read_world(&beside) } else { find_world(name) }
+    let path = beside(file, name);
+    if World::built_in(name).is_none() && path.exists() { read_world(&path) } else { find_world(name) }
 }
 
 /// The world in a file.
@@ -82,18 +82,25 @@ fn refused(error: ProblemFileError) -> Failure {
 
 fn read(path: &Path) -> Result<ReadProblems, Failure> {
     let file = ProblemFile::parse(&shown(path), &read_text_of(path, MAX_TEXT)?).map_err(refused)?;
-    let named_at = |name: &str, failure: Failure| failure.named_at(&file.place_of(name));
-    let mut worlds = BTreeMap::new();
-    for name in file.world_names() {
-        let world = find_world_beside(path, name).map_err(|failure| named_at(name, failure))?;
-        worlds.insert(name.to_owned(), world);
-    }
-    let mut scenarios = BTreeMap::new();
-    for name in file.scenario_names() {
-        let scenario = read_scenario(&path.parent().unwrap_or(Path::new("")).join(name));
-        scenarios.insert(name.to_owned(), scenario.map_err(|failure| named_at(name, failure))?);
-    }
+    let place_of = |name: &str| file.place_of(name);
+    let worlds = read_named(file.world_names(), place_of, |name| find_world_beside(path, name))?;
+    let scenarios = read_named(file.scenario_names(), place_of, |name| read_scenario(&beside(path, name)))?;
     Ok(ReadProblems { file, worlds, scenarios })
+}
+
+/// What a file names, by the names it gives it. What is wrong with one is said with the place where it is named.
+pub fn read_named<'a, T>(
+    names: impl IntoIterator<Item = &'a str>,
+    place_of: impl Fn(&str) -> String,
+    read: impl Fn(&str) -> Result<T, Failure>,
+) -> Result<BTreeMap<String, T>, Failure> {
+    let one = |name: &str| Ok((name.to_owned(), read(name).map_err(|failure| failure.named_at(&place_of(name)))?));
+    names.into_iter().map(one).collect()
+}
+
+/// The path of a file that another one names, seen from that one's folder.
+pub fn beside(file: &Path, name: &str) -> PathBuf {
+    file.parent().unwrap_or(Path::new("")).join(name)
 }
 
 /// The problems of one robot, if it is named, of which there is at least one.
