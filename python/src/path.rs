@@ -129,6 +129,13 @@ impl PyPath {
         self.lengths.length
     }
 
+    /// A length that no path of such a disc or rover undercuts, metres: larger by its tube, and with the clearance that
+    /// was asked for. It is that of the shortest path, by tangents and arcs, less rounding. None for another robot.
+    #[getter]
+    fn length_bound(&self, py: Python<'_>) -> Option<f64> {
+        py.detach(|| self.task.length_bound())
+    }
+
     /// The unit of `length`.
     #[getter]
     fn unit(&self) -> &'static str {

@@ -51,15 +51,17 @@ pub fn planner_names() -> Vec<&'static str> {
 ///
 /// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
 /// samples, if start and goal have it, else 0. `budget` is the greatest number of iterations, 100,000 if left out
-/// (20,000 for `hybrid-a-star`); with it `rrt-star` goes on to there and shortens its path. `tube` is how much larger a
-/// disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
+/// (20,000 for `hybrid-a-star`); with it `rrt-star` and `informed-rrt-star` go on to there and shorten their path.
+/// `tube` is how much larger a disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
+/// `shorten` shortens the path, as certified as before, by shortcuts of that seed and cut corners; a car's it leaves as
+/// it is.
 ///
 /// Raises NoPath, which says why there is none, with `effort`, what was done for it, as a path has it, None where there
 /// was no problem; Error for a planner that does not plan for this robot;
 /// ConfigurationError for ends that are none of the robot's configurations. Ctrl+C stops it within 0.1 s.
 #[pyfunction]
 #[pyo3(signature = (checker, start, goal, *, robot = None, planner = None, seed = None, clearance = None,
-    budget = None, tube = 0.0))]
+    budget = None, tube = 0.0, shorten = false))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub fn plan(
     py: Python<'_>,
@@ -72,6 +74,7 @@ pub fn plan(
     clearance: Option<f64>,
     budget: Option<&Bound<'_, PyAny>>,
     tube: f64,
+    shorten: bool,
 ) -> PyResult<PyPath> {
     let seed = natural_or_none("seed", seed)?.map_or(BOOK_SEED, Seed);
     let budget = natural_or_none("budget", budget)?;
@@ -106,6 +109,9 @@ pub fn plan(
         return Err(if raised.is_instance_of::<NoPath>(py) { with_effort(py, raised, Some(effort)) } else { raised });
     }
     solved?.map_err(|reason| no_path(py, &reason, Some(effort)))?;
+    if shorten {
+        py.detach(|| attempt.shorten(seed));
+    }
     Ok(PyPath::new(robot, task, name, seed.0, attempt))
 }
 

@@ -122,6 +122,24 @@ def test_a_budget_bounds_the_iterations_and_shortens_the_best_path():
     assert better.verify() == better.clearance
 
 
+def test_no_path_of_a_disc_is_shorter_than_its_bound():
+    # two tangents and an arc about the wall's end, half a metre beside the straight line
+    walls = '(name: "wall", points: [(0, -2), (0, 0.5)])'
+    world = ml.World.parse(
+        f'World(version: 1, name: "end", bounds: (min: (-2, -2), max: (2, 2)), walls: [{walls}], robots: [])'
+    )
+    line = math.sqrt(1.25 - 0.01)
+    by_hand = 2 * (line + 0.1 * (math.atan2(0.5, 1) + math.atan2(0.1, line)))
+    ends = ((-1.0, 0.0), (1.0, 0.0))
+    path = ml.plan(world, *ends, robot=ml.Disc(0.1), planner="tangent-graph")
+    assert by_hand - 1e-7 < path.length_bound <= by_hand <= path.length < by_hand + 1e-3
+    first = ml.plan(world, *ends, robot=ml.Disc(0.1), planner="rrt", clearance=0)
+    short = ml.plan(world, *ends, robot=ml.Disc(0.1), planner="rrt", clearance=0, shorten=True)
+    assert by_hand <= short.length < first.length and short.verify() == short.clearance
+    assert first.length_bound == path.length_bound
+    assert round_the_post().length_bound is None
+
+
 def test_no_path_says_why_in_the_library_s_words():
     for ask, words in [
         (lambda: ml.plan("workbench", (1.0, 0.0), (3.1, 0.0), robot=ml.Reach()), "the start would overlap the block"),

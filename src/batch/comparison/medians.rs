@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use motion_lab_sim::capture::CostLine;
 use motion_lab_sim::export::JsonNumber;
 use motion_lab_sim::plans::{PathLengths, PlannerName};
 use serde::Serialize;
@@ -40,7 +41,39 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
     (n > 0).then(|| 0.5 * (numbers[(n - 1) / 2] + numbers[n / 2]))
 }
 
+/// The median length of the paths that a planner's attempts have after so many iterations; an attempt without one
+/// counts as endless. Each step is a number of iterations at which it is another, with the median from there on.
+fn median_cost(attempts: &[&ComparedAttempt]) -> Vec<(u64, f64)> {
+    let mut moments: Vec<u64> = attempts.iter().flat_map(|a| a.costs.iter().map(|cost| cost.iterations)).collect();
+    moments.sort_unstable();
+    moments.dedup();
+    let mut steps: Vec<(u64, f64)> = Vec::new();
+    for moment in moments {
+        let length = |attempt: &&ComparedAttempt| {
+            let had = attempt.costs.iter().rfind(|cost| cost.iterations <= moment);
+            had.map_or(f64::INFINITY, |cost| cost.length)
+        };
+        let Some(cost) = median(attempts.iter().map(length).collect()).filter(|cost| cost.is_finite()) else {
+            continue;
+        };
+        if steps.last().is_none_or(|(_, last)| cost != *last) {
+            steps.push((moment, cost));
+        }
+    }
+    steps
+}
+
 impl PlannerComparison {
+    /// How the lengths of the planners' paths fell, as medians over the attempts of each, in the planners' order.
+    pub fn median_costs(&self, attempts: &[ComparedAttempt]) -> Vec<CostLine> {
+        let of = |planner: &PlannerName| {
+            let own: Vec<_> = attempts.iter().filter(|a| a.planner == *planner && a.case.asked.is_some()).collect();
+            let end = own.iter().map(|attempt| attempt.effort.iterations).max().unwrap_or(0);
+            CostLine { planner: planner.title().to_owned(), steps: median_cost(&own), end }
+        };
+        self.planners.iter().map(of).collect()
+    }
+
     /// What came of each planner, in their order; of a file's sets, if there are several, one after the other. Numbers
     /// of which there is no problem do not count.
     pub fn medians(&self, attempts: &[ComparedAttempt]) -> Vec<PlannerMedians> {

@@ -155,7 +155,7 @@ fn where_nothing_is_proven_no_barrier_is_written() {
     let at = folder.path();
     fs::write(at.join("proof.json"), "an older file").unwrap();
     let to_proof = [&OUT_OF_THE_COURT[..], &["--barrier", "proof.json"]].concat();
-    for (passage, code, why) in [(0.6, 0, "there is a path"), (0.27, 4, "nothing is proven")] {
+    for (passage, code, why) in [(0.6, 0, "there is a path"), (0.27, 4, "cells prove nothing")] {
         let ended = plan(at, &court(passage), &to_proof);
         assert_eq!(ended.code, Some(code), "{}", ended.err);
         let said = format!("proof.json: no barrier was written, since {why}");

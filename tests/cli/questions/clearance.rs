@@ -34,7 +34,18 @@ const ACROSS: [&str; 7] = ["plan", "--robot", "Rusty", "--from", "3,5.5", "--to"
 #[test]
 fn a_path_keeps_the_clearance_that_is_asked_for_whatever_the_planner() {
     let folder = tempfile::tempdir().unwrap();
-    let planners = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra", "visibility-graph", "bug1", "bug2"];
+    let planners = [
+        "rrt-connect",
+        "rrt",
+        "rrt-star",
+        "prm",
+        "a-star",
+        "dijkstra",
+        "visibility-graph",
+        "tangent-graph",
+        "bug1",
+        "bug2",
+    ];
     let mut nearer = 0;
     for planner in planners {
         let plan = |more: &[&str]| {

@@ -10,3 +10,4 @@ pub mod narrow_gap;
 pub mod plan;
 pub mod problems;
 pub mod queries;
+pub mod shortest;

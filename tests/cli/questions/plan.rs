@@ -199,8 +199,10 @@ fn a_wrong_command_line_is_code_2() {
 #[test]
 fn every_planner_is_there_by_its_name() {
     let from_to = ["--robot", "rusty", "--from", "1.5,5.75", "--to", "9.75,6.25"];
-    let of_any = ["rrt-connect", "rrt", "rrt-star", "prm", "a-star", "dijkstra"];
-    let names = [&of_any[..], &["visibility-graph", "bug1", "bug1-sensor", "bug2", "cell-decomposition"]].concat();
+    let of_any = ["rrt-connect", "rrt", "rrt-star", "informed-rrt-star", "prm", "a-star", "dijkstra"];
+    let names =
+        [&of_any[..], &["visibility-graph", "tangent-graph", "bug1", "bug1-sensor", "bug2", "cell-decomposition"]]
+            .concat();
     let straight = motion_lab::num::hypot(9.75 - 1.5, 0.5);
     let length = |name: &str| {
         let found = json(&run(&[&["plan", "--planner", name], &from_to[..], &["--json"]].concat()).done());
@@ -209,7 +211,7 @@ fn every_planner_is_there_by_its_name() {
         found["length"].as_f64().unwrap()
     };
     let lengths: Vec<f64> = names.iter().map(|name| length(name)).collect();
-    let shortest = lengths[6];
+    let shortest = lengths[7];
     for (name, length) in names.iter().zip(&lengths) {
         assert!(*length > straight && *length >= 0.97 * shortest, "{name}: {length}, {shortest}");
     }
@@ -268,22 +270,26 @@ fn planners_are_compared_in_a_table_and_in_rows() {
 
 #[test]
 fn rrt_star_shortens_its_path_as_long_as_it_is_let() {
-    let length = |more: &[&str]| {
+    let by = |planner: &str, more: &[&str]| {
         let arguments =
-            ["plan", "--json", "--planner", "rrt-star", "--robot", "Rusty", "--from", "3,5.5", "--to", "9.75,6.25"];
+            ["plan", "--json", "--planner", planner, "--robot", "Rusty", "--from", "3,5.5", "--to", "9.75,6.25"];
         let answer = json(&run(&[&arguments[..], more].concat()).done());
         (answer["length"].as_f64().unwrap(), answer["effort"]["iterations"].as_u64().unwrap())
     };
+    let length = |more: &[&str]| by("rrt-star", more);
     let (first, few, many) = (length(&[]), length(&["--iterations", "1500"]), length(&["--iterations", "4000"]));
     assert!(first.1 < 1500 && few.1 == 1500 && many.1 == 4000, "{first:?} {few:?} {many:?}");
     assert!(first.0 > few.0 && few.0 > many.0, "{first:?} {few:?} {many:?}");
     // never shorter than the straight line: sqrt(6.75^2 + 0.75^2)
     assert!(many.0 > 6.791, "{many:?}");
+    // one that is informed draws where a shorter path may lead, and no other samples
+    let informed = by("informed-rrt-star", &["--iterations", "1500"]);
+    assert!(informed.0 < few.0 && informed.0 > 6.791 && informed.1 == 1500, "{informed:?} {few:?}");
 }
 
 #[test]
 fn a_rover_that_is_there_has_no_way_to_go() {
-    for planner in ["rrt", "rrt-connect", "rrt-star", "a-star", "visibility-graph", "bug2"] {
+    for planner in ["rrt", "rrt-connect", "rrt-star", "a-star", "visibility-graph", "tangent-graph", "bug2"] {
         let answer = json(
             &run(&["plan", "--json", "--planner", planner, "--robot", "Rusty", "--from", "3,5.5", "--to", "3,5.5"])
                 .done(),

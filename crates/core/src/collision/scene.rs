@@ -191,14 +191,14 @@ impl Scene {
         self.cells.as_ref()
     }
 
-    /// Whether the point, a disc of radius 0, is inside an obstacle or on one; true for a point that is not valid.
-    pub(crate) fn holds(&self, point: &Placed) -> bool {
-        if !point.is_valid() {
+    /// Whether a shape, such as a point or a line, touches an obstacle; true for a shape that is not valid.
+    pub(crate) fn holds(&self, shape: &Placed) -> bool {
+        if !shape.is_valid() {
             return true;
         }
         let mut found = false;
-        self.each_within(point, 0.0, |piece| {
-            found = touch(point, &self.pieces[piece]);
+        self.each_within(shape, 0.0, |piece| {
+            found = touch(shape, &self.pieces[piece]);
             found
         });
         found
@@ -240,6 +240,16 @@ impl Scene {
         let mut search = self.search(shape, within);
         self.index.nearest(&search.extent(), within, |piece| search.look(piece));
         search.found()
+    }
+
+    /// The pieces whose boxes meet the shape's box.
+    pub(crate) fn pieces_near(&self, shape: &Placed) -> Vec<&Placed> {
+        let mut near = Vec::new();
+        self.each_within(shape, 0.0, |piece| {
+            near.push(&self.pieces[piece]);
+            false
+        });
+        near
     }
 
     /// Calls `visit` with each piece whose box is at most `range` from the shape's box, until it returns true.

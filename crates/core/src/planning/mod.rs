@@ -52,11 +52,12 @@ pub use path::is_same;
 pub use path::{CertifiedPath, Leg, LinePath, PathError, UnprovenPath};
 pub use planner::{Planner, accepted, called_free, solve, solve_unproven};
 pub use planners::{
-    Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+    Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, TangentGraph,
+    VisibilityGraph, length_bound,
 };
 pub use progress::Progress;
 pub use queue::Queue;
-pub use sampling::{sample_near, sample_toward_goal};
+pub use sampling::{sample_near, sample_shorter, sample_toward_goal};
 pub use search::Search;
 pub use sensed::{LeavePoint, RoundEnd, Sensed};
 pub use settings::SamplingSettings;

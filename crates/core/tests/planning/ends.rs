@@ -28,7 +28,7 @@ fn a_goal_that_cannot_be_reached_ends_every_planner_in_bounded_time() {
             let bounds = Bounds::of_iterations(if is_bug { 30_000 } else { 3000 });
             let reason = solve(planner.as_mut(), &bounds).unwrap_err();
             let expected = match planner.name() {
-                "a-star" | "dijkstra" | "visibility-graph" => {
+                "a-star" | "dijkstra" | "visibility-graph" | "tangent-graph" => {
                     matches!(reason, NoPath::NoneInGraph { nodes } if nodes > 1)
                 }
                 "bug1" | "bug2" => reason == NoPath::Enclosed { kept: 0.00625 },
@@ -82,8 +82,13 @@ fn planners_of_discs_refuse_an_arm() {
     let problem = round_the_post(1);
     assert!(matches!(Bug1::try_new(&problem), Err(NoPath::Unsuited(_))));
     assert!(matches!(Bug2::try_new(&problem), Err(NoPath::Unsuited(_))));
-    let refused = solve(&mut VisibilityGraph::new(problem), &Bounds::default());
-    assert!(matches!(refused, Err(NoPath::Unsuited(_))));
+    assert!(length_bound(&problem).is_none());
+    let others: [Box<dyn Planner<_>>; 2] =
+        [Box::new(VisibilityGraph::new(problem.clone())), Box::new(TangentGraph::new(problem))];
+    for mut planner in others {
+        let refused = solve(planner.as_mut(), &Bounds::default());
+        assert!(matches!(refused, Err(NoPath::Unsuited(_))), "{}", planner.name());
+    }
 }
 
 /// The arm on the Workbench, between two configurations.

@@ -9,13 +9,14 @@ mod own;
 mod paths;
 mod planner;
 mod shortest;
+mod tangents;
 mod tools;
 
 use motion_lab_core::collision::DiscChecker;
 use motion_lab_core::geometry::{Aabb, Placed};
 use motion_lab_core::planning::{
     Bound, Bounds, Bug1, Bug2, GridSearch, LinePath, NoPath, Planner, PotentialField, Prm, Progress, Rrt, RrtConnect,
-    RrtStar, VisibilityGraph, solve,
+    RrtStar, TangentGraph, VisibilityGraph, length_bound, solve,
 };
 use motion_lab_core::prelude::*;
 
@@ -76,6 +77,7 @@ fn planners<R: Robot<Configuration: motion_lab_core::configuration::Chart>>(
         Box::new(RrtConnect::new(problem.clone())),
         Box::new(Rrt::new(problem.clone())),
         Box::new(RrtStar::new(problem.clone())),
+        Box::new(RrtStar::informed(problem.clone())),
         Box::new(Prm::new(problem.clone())),
         Box::new(GridSearch::a_star(problem.clone())),
         Box::new(GridSearch::dijkstra(problem.clone())),
@@ -88,6 +90,7 @@ fn planners_of_discs<R: Robot<Configuration: motion_lab_core::configuration::Cha
 ) -> Vec<Box<dyn Planner<R>>> {
     let mut all = planners(problem);
     all.push(Box::new(VisibilityGraph::new(problem.clone())));
+    all.push(Box::new(TangentGraph::new(problem.clone())));
     all.push(Box::new(Bug1::try_new(problem).unwrap()));
     all.push(Box::new(Bug2::try_new(problem).unwrap()));
     all

@@ -17,6 +17,17 @@ pub(in crate::capture) struct PlotLine {
     pub(in crate::capture) contacts: Vec<[f64; 2]>,
 }
 
+/// What the axis of a chart that goes up shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::capture) enum PlotValues {
+    /// The values, and 0.
+    FromZero,
+    /// The values alone.
+    Alone,
+    /// All angles in (-pi, pi].
+    Angles,
+}
+
 pub(in crate::capture) struct PlotChart<'a> {
     /// What goes up, with its unit; it names the picture too.
     pub(in crate::capture) up: &'a str,
@@ -26,8 +37,8 @@ pub(in crate::capture) struct PlotChart<'a> {
     pub(in crate::capture) span: [f64; 2],
     /// The only value, which the middle of the axis across then stands for; `None` for an axis of many.
     pub(in crate::capture) only: Option<String>,
-    /// Whether the values are angles in (-pi, pi]; the axis then shows them all.
-    pub(in crate::capture) angles: bool,
+    /// What the axis that goes up shows.
+    pub(in crate::capture) values: PlotValues,
     /// The lines, at most [`MAX_LINES`].
     pub(in crate::capture) lines: Vec<PlotLine>,
 }
@@ -89,17 +100,20 @@ impl PlotChart<'_> {
         picture.with(shade).with(axes).with(self.curves(&area)).with(self.words(&area, height, &legend))
     }
 
-    /// Both ends of the axis that goes up: the values and 0, and a little room.
+    /// Both ends of the axis that goes up, with a little room.
     fn range(&self) -> [f64; 2] {
-        if self.angles {
-            return [-PI, PI];
-        }
-        let values = self.lines.iter().flat_map(|line| line.pieces.iter().flatten()).map(|p| p[1]);
-        let [low, high] = values.fold([0.0, 0.0], |[low, high], y| [lesser(low, y), greater(high, y)]);
+        let mut values = self.lines.iter().flat_map(|line| line.pieces.iter().flatten()).map(|p| p[1]).peekable();
+        let first = match self.values {
+            PlotValues::Angles => return [-PI, PI],
+            PlotValues::FromZero => 0.0,
+            PlotValues::Alone => values.peek().copied().unwrap_or(0.0),
+        };
+        let [low, high] = values.fold([first, first], |[low, high], y| [lesser(low, y), greater(high, y)]);
         if low == high {
-            [-1.0, 1.0]
+            [low - 1.0, high + 1.0]
         } else {
-            [low - 0.04 * (high - low) * f64::from(low < 0.0), high + 0.04 * (high - low)]
+            let below = f64::from(low != 0.0);
+            [low - 0.04 * (high - low) * below, high + 0.04 * (high - low)]
         }
     }
 
@@ -110,7 +124,8 @@ impl PlotChart<'_> {
         let frame = vec![corner(left, top), corner(left, bottom), corner(right, bottom)];
         let mut items =
             vec![Item::new("axes", "the axes", Role::Muted, Drawing::Polyline(frame)).stroked(Line::solid(1.0))];
-        let up = if self.angles { angle_marks() } else { marks(area.up, ((top - bottom) / 40.0) as usize) };
+        let is_angle = self.values == PlotValues::Angles;
+        let up = if is_angle { angle_marks() } else { marks(area.up, ((top - bottom) / 40.0) as usize) };
         for AxisMark { at, text } in up {
             let y = area.at([self.span[0], at]).y;
             let line = Drawing::segment(corner(left, y), corner(right, y));

@@ -16,6 +16,7 @@
 
 mod captured;
 mod chart;
+mod costs;
 mod distributions;
 mod error;
 mod film;
@@ -30,11 +31,12 @@ mod tour_figure;
 
 pub use captured::{CaptureForm, Captured, Note, Paper, TICK_HUNDREDTHS};
 pub use chart::MAX_LINES;
+pub use costs::{CostLine, CostSheet, costs};
 pub use distributions::{ByValue, Distribution, Quartiles, boxes, histograms};
 pub use error::CaptureError;
 pub use film::Film;
 pub use moving::{CaptureSpan, Subject, at_tick, at_tick_with_robots};
-pub use plan::{PlanOutcome, PlanSheet, judged_words, plan, proven, unit};
+pub use plan::{PlanOutcome, PlanSheet, bounded, judged_words, plan, proven, unit};
 pub use plot::{RunPlot, plot};
 pub use run_figure::{RunFigure, run_svg, with_names};
 pub use scenes::{AtlasSheet, anatomy, atlas, cspace};

@@ -115,6 +115,11 @@ pub fn proven(clearance: f64) -> String {
     format!("{:.digits$}", (clearance * scale).floor() / scale)
 }
 
+/// What a length says that no path undercuts, metres: rounded down, so that no more is claimed than is so.
+pub fn bounded(bound: f64) -> String {
+    format!("no path is shorter than {:.4} m", (bound * 1e4).floor() / 1e4)
+}
+
 /// The unit in which a robot's paths are measured.
 pub fn unit(robot: &AnyRobot) -> &'static str {
     if matches!(robot, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) { "rad" } else { "m" }
@@ -122,7 +127,13 @@ pub fn unit(robot: &AnyRobot) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::proven;
+    use super::{bounded, proven};
+
+    #[test]
+    fn a_bound_is_never_shown_larger_than_it_is() {
+        assert_eq!(bounded(3.81189), "no path is shorter than 3.8118 m");
+        assert_eq!(bounded(3.8118), "no path is shorter than 3.8118 m");
+    }
 
     #[test]
     fn a_clearance_is_never_shown_larger_than_it_is_proven_nor_as_none() {

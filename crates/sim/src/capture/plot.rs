@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::chart::{MAX_LINES, PlotChart, PlotLine};
+use super::chart::{MAX_LINES, PlotChart, PlotLine, PlotValues};
 use super::{Captured, Note};
 use crate::run::{DT, Quantity, Series};
 use motion_lab_core::picture::Figure;
@@ -40,7 +40,7 @@ pub fn plot(plot: &RunPlot<'_>, width_px: f64) -> Captured {
         across: "time, s",
         span: [0.0, if *ticks == 0 { DT } else { seconds }],
         only: None,
-        angles: quantity.wraps(),
+        values: if quantity.wraps() { PlotValues::Angles } else { PlotValues::FromZero },
         lines: series.iter().take(MAX_LINES).map(line).collect(),
     };
     let mut figure = Figure::of(chart.picture(width_px - BORDERS));

@@ -3,13 +3,14 @@
 use crate::run::Script;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use motion_lab_core::collision::{Checker, Collision, EdgeVerdict, ProvenStep};
-use motion_lab_core::configuration::{AnyConfiguration, Configuration};
+use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration};
 use motion_lab_core::cspace::CellMap;
 use motion_lab_core::planning::{
-    Bounds, CertifiedPath, Effort, NoPath, PathError, Planner, Progress, UnprovenPath, accepted, called_free, solve,
-    solve_unproven,
+    Bounds, CertifiedPath, Effort, LinePath, Metric, NoPath, PathError, Planner, Progress, UnprovenPath, accepted,
+    called_free, solve, solve_unproven,
 };
-use motion_lab_core::robots::{ChartLine, HitchArc, Motion, Robot};
+use motion_lab_core::random::{Seed, Stream};
+use motion_lab_core::robots::{ChartLine, Hitch, HitchArc, Motion, Robot};
 
 use super::drawn::{Drawn, Rejected};
 
@@ -92,6 +93,25 @@ pub struct PathLengths {
     pub clearance: f64,
 }
 
+/// A path that may be shortened.
+pub trait ShortenedPath<R: Robot>: Sized {
+    /// The path [shortened](LinePath::shortened) by shortcuts of this seed; `None` where its motions can't be.
+    fn try_shortened(&self, checker: &Checker<R>, seed: Seed) -> Option<Self>;
+}
+
+impl<R: Robot<Configuration: Chart>> ShortenedPath<R> for LinePath<R> {
+    fn try_shortened(&self, checker: &Checker<R>, seed: Seed) -> Option<Self> {
+        let mut stream = Stream::new(seed, "planner/shorten");
+        Some(self.shortened(checker, &Metric::unit(&self.start()), &mut stream))
+    }
+}
+
+impl ShortenedPath<Hitch> for CertifiedPath<HitchArc> {
+    fn try_shortened(&self, _: &Checker<Hitch>, _: Seed) -> Option<Self> {
+        None
+    }
+}
+
 /// A planner at work.
 pub trait PlanAttempt: Send {
     /// Works until there is a path.
@@ -105,6 +125,10 @@ pub trait PlanAttempt: Send {
     /// # Errors
     /// [`NoPath::Refused`]: the shorter path does not stand the check.
     fn improve(&mut self, bounds: &Bounds) -> Result<(), NoPath>;
+
+    /// Shortens the path: by shortcuts between places drawn from the seed, and by cut corners. It is as certified, and
+    /// keeps as much. False where there is no proven path, and of a car's, whose motions are none of straight lines.
+    fn shorten(&mut self, seed: Seed) -> bool;
 
     /// Does one iteration. A path is checked before it counts, as by [`solve`].
     fn step(&mut self) -> Progress;
@@ -229,7 +253,7 @@ impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration
 impl<R: Robot<Configuration: Into<AnyConfiguration>>, M: LegMotion<Configuration = R::Configuration>> PlanAttempt
     for Trial<R, M>
 where
-    CertifiedPath<M>: PlayablePath,
+    CertifiedPath<M>: PlayablePath + ShortenedPath<R>,
 {
     fn solve(&mut self, bounds: &Bounds) -> Result<(), NoPath> {
         let planner = self.planner.as_mut();
@@ -255,6 +279,16 @@ where
             }
         }
         Ok(self.take()?)
+    }
+
+    fn shorten(&mut self, seed: Seed) -> bool {
+        let (planner, checker) = (self.planner.as_ref(), self.planner.problem().checker());
+        // in the planner's scene, whose obstacles are larger by what the path is to keep
+        let shortened = planner.path().filter(|_| self.path.is_some());
+        let shortened = shortened.and_then(|path| path.try_shortened(checker, seed));
+        let Some(path) = shortened.and_then(|path| self.in_own_scene(path).ok()) else { return false };
+        self.path = Some(path);
+        true
     }
 
     fn step(&mut self) -> Progress {

@@ -4,7 +4,7 @@ use motion_lab_core::collision::Problem;
 use motion_lab_core::configuration::Chart;
 use motion_lab_core::planning::hybrid::HybridAStar;
 use motion_lab_core::planning::{
-    Bug1, Bug2, GridSearch, NoPath, PotentialField, Prm, Rrt, RrtConnect, RrtStar, VisibilityGraph,
+    Bug1, Bug2, GridSearch, NoPath, PotentialField, Prm, Rrt, RrtConnect, RrtStar, TangentGraph, VisibilityGraph,
 };
 use motion_lab_core::robots::{Hitch, HitchArc, Reach, Robot, RustyDisc};
 
@@ -29,10 +29,12 @@ impl Making for PlannerName {
             PlannerName::RrtConnect => Box::new(RrtConnect::new(problem)),
             PlannerName::Rrt => Box::new(Rrt::new(problem)),
             PlannerName::RrtStar => Box::new(RrtStar::new(problem)),
+            PlannerName::InformedRrtStar => Box::new(RrtStar::informed(problem)),
             PlannerName::Prm => Box::new(Prm::new(problem)),
             PlannerName::AStar => Box::new(GridSearch::a_star(problem)),
             PlannerName::Dijkstra => Box::new(GridSearch::dijkstra(problem)),
             PlannerName::VisibilityGraph => Box::new(VisibilityGraph::new(problem)),
+            PlannerName::TangentGraph => Box::new(TangentGraph::new(problem)),
             PlannerName::PotentialField => Box::new(PotentialField::new(problem)),
             PlannerName::Bug1 => Box::new(Bug1::try_new(&problem)?),
             PlannerName::Bug2 => Box::new(Bug2::try_new(&problem)?),

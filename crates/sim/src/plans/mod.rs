@@ -31,7 +31,7 @@ mod removal;
 mod rounds;
 mod task;
 
-pub use attempt::{FileLeg, LegControl, LegMotion, PathLengths, PlanAttempt, Trial};
+pub use attempt::{FileLeg, LegControl, LegMotion, PathLengths, PlanAttempt, ShortenedPath, Trial};
 pub use bug1_sensor::{Bug1Sensor, Bug1Walk, WalkEnd};
 pub use checker_name::CheckerName;
 pub use drawn::{Drawn, Rejected};

@@ -13,6 +13,8 @@ pub enum PlannerName {
     Rrt,
     /// A tree that is wired anew as it grows.
     RrtStar,
+    /// The same tree, which once there is a path grows only where a shorter one may lead.
+    InformedRrtStar,
     /// A road map of samples.
     Prm,
     /// A* on a grid of configurations.
@@ -21,6 +23,8 @@ pub enum PlannerName {
     Dijkstra,
     /// The shortest way by the corners of the obstacles.
     VisibilityGraph,
+    /// The shortest path, by tangents and arcs about the corners.
+    TangentGraph,
     /// Downhill in a field that the goal attracts and obstacles repel.
     PotentialField,
     /// Bug1.
@@ -66,21 +70,32 @@ impl PlannerName {
     /// Whether it joins samples that it draws.
     pub const fn draws_samples(self) -> bool {
         match self {
-            PlannerName::RrtConnect | PlannerName::Rrt | PlannerName::RrtStar | PlannerName::Prm => true,
+            PlannerName::RrtConnect
+            | PlannerName::Rrt
+            | PlannerName::RrtStar
+            | PlannerName::InformedRrtStar
+            | PlannerName::Prm => true,
             PlannerName::Own(own) => own.draws_samples,
             _ => false,
         }
     }
 
+    /// Whether it goes on to shorten a path that it has.
+    pub const fn improves(self) -> bool {
+        matches!(self, PlannerName::RrtStar | PlannerName::InformedRrtStar)
+    }
+
     /// The lab's planners, in the order of the lists. [`Planners`](super::Planners) has those of a program's own too.
-    pub const ALL: [PlannerName; 13] = [
+    pub const ALL: [PlannerName; 15] = [
         PlannerName::RrtConnect,
         PlannerName::Rrt,
         PlannerName::RrtStar,
+        PlannerName::InformedRrtStar,
         PlannerName::Prm,
         PlannerName::AStar,
         PlannerName::Dijkstra,
         PlannerName::VisibilityGraph,
+        PlannerName::TangentGraph,
         PlannerName::PotentialField,
         PlannerName::Bug1,
         PlannerName::Bug1Sensor,
@@ -99,6 +114,12 @@ impl PlannerName {
             PlannerName::RrtStar => {
                 row("rrt-star", "RRT*", Lines, "A tree that is wired anew as it grows: the first path that it has")
             }
+            PlannerName::InformedRrtStar => row(
+                "informed-rrt-star",
+                "Informed RRT*",
+                Lines,
+                "RRT* that, once it has a path, draws samples only where a shorter one may lead",
+            ),
             PlannerName::Prm => {
                 row("prm", "PRM", Lines, "A road map of samples, grown until start and goal are joined")
             }
@@ -109,6 +130,12 @@ impl PlannerName {
                 "Visibility graph",
                 Discs,
                 "The shortest way by the corners of the obstacles, for a rover",
+            ),
+            PlannerName::TangentGraph => row(
+                "tangent-graph",
+                "Tangent graph",
+                Discs,
+                "The shortest path, by tangents and arcs about the corners of the obstacles, for a rover",
             ),
             PlannerName::PotentialField => row(
                 "potential-field",

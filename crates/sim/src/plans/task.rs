@@ -7,13 +7,13 @@ use motion_lab_core::collision::{Checker, Collision as _, Problem, ProblemError,
 use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::greater;
-use motion_lab_core::planning::{CellDecomposition, CertifiedPath, LinePath, MARGIN, NoPath, Planner};
+use motion_lab_core::planning::{CellDecomposition, CertifiedPath, LinePath, MARGIN, NoPath, Planner, length_bound};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::robots::{AnyRobot, Hitch, HitchArc, Reach, Robot, Rusty, RustyDisc};
 use motion_lab_core::sensors::BeamModel;
 use motion_lab_core::worlds::{Resident, World};
 
-use super::attempt::{LegMotion, PlanAttempt, Trial};
+use super::attempt::{LegMotion, PlanAttempt, ShortenedPath, Trial};
 use super::bug1_sensor::Bug1Sensor;
 use super::checker_name::CheckerName;
 use super::making::{ByLines, HasMaker, LINES, Making};
@@ -175,6 +175,15 @@ impl Task {
         }
     }
 
+    /// A length that no path of a rover undercuts, metres: of one that is larger by the tube, that keeps the clearance
+    /// which is said, and whose centre stays within the world's bounds. Infinity where there is no such path; `None`
+    /// for another robot, and where start or goal are no ends of one.
+    pub fn length_bound(&self) -> Option<f64> {
+        let (disc, ends) = self.disc().ok()?;
+        let task = Task { checker: CheckerName::EXACT, ..self.clone() };
+        length_bound(&task.problem(disc, ends, Seed(0)).ok()?)
+    }
+
     /// The disc that a rover is planned as, larger by the tube, and where its path begins and ends.
     fn disc(&self) -> Result<(RustyDisc, [R2; 2]), NoPath> {
         match (self.robot, self.start, self.goal) {
@@ -294,7 +303,7 @@ impl Task {
     where
         R: Robot<Configuration: Into<AnyConfiguration>> + Send + 'static,
         M: LegMotion<Configuration = R::Configuration>,
-        CertifiedPath<M>: PlayablePath,
+        CertifiedPath<M>: PlayablePath + ShortenedPath<R>,
     {
         let trial = Trial::new(planner);
         if self.said_clearance() > 0.0 {

@@ -3,6 +3,9 @@
 use motion_lab_core::collision::ProblemError;
 use motion_lab_core::planning::NoPath;
 
+/// What to do where tangents and arcs prove that there is none.
+pub(super) const NO_TANGENTS: &str = "Choose another --to, or a smaller --tube or --clearance.";
+
 /// What to do where there is no path.
 pub(super) fn next(reason: &NoPath) -> &'static str {
     match reason {

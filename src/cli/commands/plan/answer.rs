@@ -1,12 +1,12 @@
 //! `PlanAnswer`, what came of planning.
 
-use crate::capture::{proven, unit};
+use crate::capture::{bounded, proven, unit};
 use motion_lab_core::planning::{Effort, NoPath};
 use motion_lab_sim::export::{JsonNumber, json_seed};
 use motion_lab_sim::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
 
-use super::advice::next;
+use super::advice::{NO_TANGENTS, next};
 use super::blockers::BlockersAnswer;
 use super::exact::ExactAnswer;
 use crate::cli::support::words::counted;
@@ -30,6 +30,9 @@ pub struct PlanAnswer {
     legs: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     length: Option<JsonNumber>,
+    /// No path is shorter; left out where that was not asked, where it is not known, and where there is no path at all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    length_bound: Option<JsonNumber>,
     #[serde(skip_serializing_if = "Option::is_none")]
     clearance: Option<JsonNumber>,
     /// Who called the path free, that this is no proof, and what the exact checker says of it; left out where the path
@@ -59,6 +62,9 @@ pub struct PlanAnswer {
     /// What to do then.
     #[serde(skip)]
     pub next: &'static str,
+    /// For what the bound is where it is not the robot as it is.
+    #[serde(skip)]
+    larger: String,
     /// The unit of the length.
     #[serde(skip)]
     unit: &'static str,
@@ -77,6 +83,7 @@ impl PlanAnswer {
             seconds: None,
             legs: None,
             length: None,
+            length_bound: None,
             clearance: None,
             checker: (!task.checker.proves()).then(|| task.checker.id()),
             proven: (!task.checker.proves()).then_some(false),
@@ -88,6 +95,7 @@ impl PlanAnswer {
             reason: None,
             blockers: None,
             next: "",
+            larger: larger(task),
             unit: unit(&task.robot),
         }
     }
@@ -109,6 +117,15 @@ impl PlanAnswer {
     /// How the command ends that gives this answer for want of a path.
     pub fn without_path(&self) -> Outcome {
         if self.answer == "none" { Outcome::Unreachable } else { Outcome::NoPath }
+    }
+
+    /// The same answer with a length that no path undercuts: where that is infinite there is none.
+    pub fn bounded(self, bound: f64) -> Self {
+        if self.solved || bound < f64::INFINITY {
+            return PlanAnswer { length_bound: Some(JsonNumber(bound)), ..self };
+        }
+        let reason = Some(format!("no path: no tangents and arcs lead the disc from start to goal{}", self.larger));
+        PlanAnswer { answer: "none", reason, next: NO_TANGENTS, checker: None, proven: None, ..self }
     }
 
     /// The same answer with what the planner has done.
@@ -146,6 +163,11 @@ impl PlanAnswer {
         Ok(())
     }
 
+    /// The bound behind the length of a path, or behind the reason why none was found.
+    pub fn bound_in_words(&self) -> String {
+        self.length_bound.map_or_else(String::new, |bound| format!("; {}{}", bounded(bound.0), self.larger))
+    }
+
     /// Prints the path in words.
     pub fn print(&self, data: &mut Data) -> Result<(), Failure> {
         let (legs, length) = (self.legs.unwrap_or(0), self.length.map_or(0.0, |length| length.0));
@@ -153,7 +175,10 @@ impl PlanAnswer {
         let seconds = self.seconds.unwrap_or(0.0);
         let by = self.checker.map_or_else(String::new, |checker| format!(", by {checker}"));
         data.line(format!("{} at seed {}: {} in {}{by}", self.planner, self.seed, self.robot, self.world))?;
-        data.line(format!("path       {}, {length:.3} {}", counted(legs, "leg"), self.unit))?;
+        let bound = self.bound_in_words();
+        // as many digits as the bound has
+        let digits = if bound.is_empty() { 3 } else { 4 };
+        data.line(format!("path       {}, {length:.digits$} {}{bound}", counted(legs, "leg"), self.unit))?;
         if let Some(checker) = self.checker {
             data.line(format!("clearance  nothing is proven: {checker} calls the path free"))?;
         } else {

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// the path is printed. Where no path is found within the bound on iterations, where the start or the goal is in
 /// contact, or where a planner has searched all that it looks at, that is said, and the exit code is 4. Where
 /// cell-decomposition proves that there is no path, it is 7; --barrier writes the proof, and --what-blocks says what to
-/// move.
+/// move. Of a rover --bound says how short a path may be at all.
 ///
 /// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
 /// the run in which the script plays it, with --svg to a picture, with --gif to a film of the planner's growth. What
@@ -33,6 +33,7 @@ Examples:
   motion-lab plan --robot reach --from 2.0,0 --to 3.1,0 --svg path.svg --gif growth.gif
   motion-lab plan --planner rrt-connect --robot reach --from 2.0,0 --to 3.1,0 --seed 7 -o path.json --script out.ron
   motion-lab plan --robot hitch --from 6.5,2.5,0,0 --to 6.75,7,-1.5707963,-1.5707963 --record parked.mcap
+  motion-lab plan --robot Rusty --to 9.75,6.25 --planner tangent-graph --bound
   motion-lab plan --robot Rusty --world shut.ron --to 9.75,6.25 --barrier proof.json
   motion-lab plan --robot Rusty --world shut.ron --to 9.75,6.25 --what-blocks
   motion-lab plan --compare rrt-connect,prm,a-star --robot rusty --to 9.75,6.25 --seeds 0..20 --csv planners.csv
@@ -62,9 +63,9 @@ pub struct PlanArgs {
     /// The seed of the planner's samples, and of the run that plays the path.
     #[arg(long, default_value_t = 2005, conflicts_with = "compare")]
     pub(super) seed: u64,
-    /// The greatest number of iterations. With it rrt-star goes on to that number and shortens its path, in a
-    /// comparison too; without it the first path is taken. [default: 20000 for hybrid-a-star, 100000 for any other
-    /// planner]
+    /// The greatest number of iterations. With it rrt-star and informed-rrt-star go on to that number and shorten their
+    /// path, in a comparison too; without it the first path is taken. [default: 20000 for hybrid-a-star, 100000 for any
+    /// other planner]
     #[arg(long, value_name = "N")]
     pub(super) iterations: Option<u64>,
     /// A rover is planned this much larger, metres, so that its script may stray from the path by as much: 0 to 1.
@@ -72,7 +73,7 @@ pub struct PlanArgs {
     pub(super) tube: f64,
     /// The clearance that the path keeps from every obstacle, beside the tube, metres: 0 to 100. Start and goal are to
     /// have it too. With 0 the path touches nothing, and may come as near as a proof can tell. [default: 0.001 for
-    /// rrt-connect, rrt, rrt-star and prm, if start and goal have it; 0 for any other planner]
+    /// rrt-connect, rrt, rrt-star, informed-rrt-star and prm, if start and goal have it; 0 for any other planner]
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub(super) clearance: Option<f64>,
     /// Who answers the planner's questions. With parry, the book's black box, nothing is proven: what is printed and
@@ -109,6 +110,14 @@ pub struct PlanArgs {
     /// proven path appears. By cell-decomposition, which then need not be named.
     #[arg(long, conflicts_with = "compare")]
     pub(super) what_blocks: bool,
+    /// Shorten the path by shortcuts and cut corners once there is one; it is as certified as before. A car's path and
+    /// the film of --gif stay as they are.
+    #[arg(long, conflicts_with = "compare")]
+    pub(super) shorten: bool,
+    /// Say a length that no path undercuts: that of the shortest path, by tangents and arcs, of a rover larger by
+    /// --tube and, if it is given, --clearance. Where there is no path at all it proves that, and the exit code is 7.
+    #[arg(long, conflicts_with = "compare")]
+    pub(super) bound: bool,
     /// Print the result as JSON.
     #[arg(long)]
     pub(super) json: bool,
@@ -128,8 +137,9 @@ pub struct PlanArgs {
     /// Write a row for each attempt of a comparison to this file: as Parquet if its name ends so, else as CSV.
     #[arg(long, value_name = "FILE", requires = "compare")]
     pub(super) csv: Option<PathBuf>,
-    /// Write the lengths of a comparison's paths as they fell to this file, as CSV: after how many iterations each
-    /// attempt had its first path, and each shorter one.
+    /// Write the lengths of a comparison's paths as they fell to this file: after how many iterations each attempt had
+    /// its first path, and each shorter one, looked at every 500 iterations, as CSV; or the medians of each planner as
+    /// a picture, if its name ends in .svg or .png.
     #[arg(long, value_name = "FILE", requires = "compare")]
     pub(super) costs: Option<PathBuf>,
     /// Write a comparison to this file in the grammar of OMPL's benchmark logs, which ompl_benchmark_statistics.py and

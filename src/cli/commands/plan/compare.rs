@@ -4,16 +4,18 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use motion_lab_core::robots::AnyRobot;
-use motion_lab_sim::capture::proven;
+use motion_lab_sim::capture::{CostSheet, costs, proven};
 use motion_lab_sim::plans::PlannerName;
 
 use super::answer::PlanAnswer;
 use super::args::PlanArgs;
 use crate::batch::{ComparedAttempt, NoProblem, PlannerComparison, PlannerMedians, ProblemSet};
+use crate::capture::CaptureForm;
 use crate::cli::commands::record::SeedRange;
 use crate::cli::support::input::is_dash;
 use crate::cli::support::interrupt;
 use crate::cli::support::output::write_file;
+use crate::cli::support::paper::write_picture;
 use crate::cli::support::progress::CommandProgress;
 use crate::cli::support::target::Target;
 use crate::cli::{Data, Failure, Outcome, say};
@@ -65,7 +67,7 @@ pub fn compare(args: &PlanArgs, problems: ProblemSet, data: &mut Data) -> Result
         target.finish(data)?;
     }
     if let Some(target) = costs {
-        write_file(&target, comparison.costs_csv(&attempts).as_bytes())?;
+        write_costs(args, &comparison, &attempts, &target)?;
         target.finish(data)?;
     }
     if let Some(mut targets) = ompl {
@@ -97,6 +99,28 @@ fn no_problem(
         say(format!("{}\n{}", super::advice::in_words(&reason.to_string()), super::advice::next(reason)));
     }
     Ok(Outcome::NoPath)
+}
+
+/// The lengths as they fell: as a picture where the file's name ends so, else as CSV.
+fn write_costs(
+    args: &PlanArgs,
+    comparison: &PlannerComparison,
+    attempts: &[ComparedAttempt],
+    target: &Target,
+) -> Result<(), Failure> {
+    let form = CaptureForm::of(target.path()).filter(|form| matches!(form, CaptureForm::Svg | CaptureForm::Png));
+    let Some(form) = form else { return write_file(target, comparison.costs_csv(attempts).as_bytes()) };
+    let asked = attempts.iter().filter(|attempt| attempt.case.asked.is_some()).count();
+    let count = asked / comparison.planners.len().max(1);
+    let problems = comparison.problems();
+    let problem = match problems.problem(0).and_then(|problem| problem.task.ok()).filter(|_| problems.len() == 1) {
+        Some(task) => format!("{} in {}", task.name, task.world.name),
+        None => format!("{} problems", problems.len()),
+    };
+    let lines = comparison.median_costs(attempts);
+    let sheet = CostSheet { lines, attempts: count, unit: comparison.unit(), problem };
+    let paper = args.paper.paper();
+    write_picture(&costs(&sheet, f64::from(paper.width)), &paper, form, target)
 }
 
 /// The table of the attempts: as Parquet where the file's name ends so, else as CSV.

@@ -22,6 +22,7 @@ use std::time::Instant;
 use crate::capture::{CaptureForm, PlanOutcome};
 use motion_lab_core::planning::NoPath;
 use motion_lab_core::random::Seed;
+use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::plans::{MAX_CLEARANCE, PathFile, PlanAttempt, PlannerName, Task};
 
 use crate::cli::support::console::note;
@@ -57,7 +58,7 @@ impl PlanArgs {
             return compare::compare(&self, problems::all(&self)?, data);
         }
         let task = problems::one(&self)?;
-        if let (false, Some(option)) = (task.checker.proves(), self.asks_for_cells()) {
+        if let (false, Some(option)) = (task.checker.proves(), self.asks_for_proofs()) {
             let reason = format!("{option} rests on proofs, and {} proves nothing", task.checker.id());
             return Err(Failure::usage(reason, format!("Leave out --checker, or {option}.")));
         }
@@ -66,13 +67,16 @@ impl PlanArgs {
             return Err(Failure::usage(reason, "Leave out --checker, or --script and --record."));
         }
         let name = self.planner_for(&task)?;
+        if self.bound && !matches!(task.robot, AnyRobot::Rusty(_)) {
+            let reason = "--bound: only a rover's path has a bound, since it is a disc";
+            return Err(Failure::usage(reason.to_owned(), "Leave out --bound."));
+        }
         let targets = PlanTargets::of(&self)?;
         let begun = Instant::now();
         let mut attempt = match task::attempt(&task, name, Seed(self.seed))? {
             Ok(attempt) => attempt,
             Err(reason) => {
-                return self
-                    .none(self.with_blockers(PlanAnswer::of_none(&task, name, self.seed, &reason), &task), data);
+                return self.none(self.completed(PlanAnswer::of_none(&task, name, self.seed, &reason), &task), data);
             }
         };
         let progress = CommandProgress::uncounted("iterations");
@@ -81,6 +85,9 @@ impl PlanArgs {
             return Ok(Outcome::Stopped);
         };
         drop(progress);
+        if self.shorten && solved.is_ok() && !attempt.shorten(Seed(self.seed)) {
+            note("the path was not shortened: a car drives it as it is".to_owned());
+        }
         let seconds = begun.elapsed().as_secs_f64();
         match solved {
             Ok(()) => self.solved(&task, name, attempt.as_ref(), seconds, targets, data),
@@ -94,9 +101,9 @@ impl PlanArgs {
                         barrier.ok_or_else(missing)?.write(target, data)?;
                         answer.next = "Choose another --to, or a smaller --tube or --clearance.";
                     }
-                    (barrier, _) => unwritten(barrier.as_ref(), "nothing is proven"),
+                    (barrier, _) => unwritten(barrier.as_ref(), "cells prove nothing"),
                 }
-                self.none(self.with_blockers(answer.after(attempt.effort()), &task), data)
+                self.none(self.completed(answer.after(attempt.effort()), &task), data)
             }
         }
     }
@@ -126,10 +133,27 @@ impl PlanArgs {
         }
     }
 
-    /// The answer with what to move, where that is asked.
-    fn with_blockers(&self, mut answer: PlanAnswer, task: &Task) -> PlanAnswer {
+    /// The option that rests on proofs.
+    fn asks_for_proofs(&self) -> Option<&'static str> {
+        match self {
+            Self { bound: true, .. } => Some("--bound"),
+            Self { shorten: true, .. } => Some("--shorten"),
+            _ => self.asks_for_cells(),
+        }
+    }
+
+    /// The answer without a path, with what to move and with a bound, where they are asked.
+    fn completed(&self, answer: PlanAnswer, task: &Task) -> PlanAnswer {
+        let mut answer = self.with_bound(answer, task);
         answer.blockers = self.what_blocks.then(|| BlockersAnswer::of(task.what_blocks()));
         answer
+    }
+
+    fn with_bound(&self, answer: PlanAnswer, task: &Task) -> PlanAnswer {
+        match if self.bound { task.length_bound() } else { None } {
+            Some(bound) => answer.bounded(bound),
+            None => answer,
+        }
     }
 
     /// Says that there is no path.
@@ -138,7 +162,7 @@ impl PlanArgs {
             data.json(&answer)?;
         } else if let Some(reason) = &answer.reason {
             let next = answer.blockers.as_ref().map_or_else(|| answer.next.to_owned(), BlockersAnswer::words);
-            say(format!("{}\n{next}", in_words(reason)));
+            say(format!("{}{}\n{next}", in_words(reason), answer.bound_in_words()));
         }
         Ok(answer.without_path())
     }
@@ -153,7 +177,8 @@ impl PlanArgs {
         data: &mut Data,
     ) -> Result<Outcome, Failure> {
         let PlanTargets { path, script, record, picture, film, barrier } = targets;
-        let mut answer = PlanAnswer::of_path(task, name, self.seed, attempt, seconds);
+        let answer = PlanAnswer::of_path(task, name, self.seed, attempt, seconds);
+        let mut answer = self.with_bound(answer, task);
         // what can't be played is refused before anything is written
         let played = if script.is_some() || record.is_some() {
             match play::play(task, attempt, Seed(self.seed))? {

@@ -17,7 +17,7 @@ use motion_lab_core::planning::NoPath;
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::capture::{judged_words, proven, unit};
+use motion_lab_sim::capture::{bounded, judged_words, proven, unit};
 use motion_lab_sim::plans::{PathLengths, PlannerName, TUBE, Task};
 
 /// Width of a chooser, points.
@@ -201,6 +201,9 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
                 let (legs, unit) = (plan.drawn().legs(), unit(&plan.task().robot));
                 headline(ui, &format!("path: {legs}, {length:.3} {unit}"), look.colour(Role::Text));
                 ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));
+                if let Some(bound) = plan.length_bound() {
+                    ui.label(monospace(bounded(bound)));
+                }
             }
             if plan.improves() {
                 ui.label("Play on, and it improves its path.");

@@ -200,7 +200,7 @@ impl PlanState {
 
     /// Whether its planner goes on to improve a path that it has.
     pub fn improves(&self) -> bool {
-        self.planner == PlannerName::RrtStar && self.effort.iterations < self.bound
+        self.planner.improves() && self.effort.iterations < self.bound
     }
 
     /// The plan in a sentence, for readers who do not see it.
@@ -239,6 +239,11 @@ impl PlanState {
     pub fn lengths(&self) -> Option<PathLengths> {
         let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
         Some(work.with(|attempt| attempt.lengths()))
+    }
+
+    /// A length that no path undercuts, metres, where it is known.
+    pub fn length_bound(&self) -> Option<f64> {
+        self.work.as_ref()?.length_bound(&self.task)
     }
 
     /// The picture of the world alone.

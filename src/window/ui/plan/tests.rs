@@ -54,6 +54,11 @@ fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
     let better = plan.lengths().unwrap().length;
     assert_eq!(plan.effort().iterations, iterations + 300);
     assert!(better < first, "{better} {first}");
+    plan.set_planner(PlannerName::InformedRrtStar);
+    while *plan.stage() == PlanStage::Growing {
+        plan.step();
+    }
+    assert!(plan.improves());
     plan.set_planner(PlannerName::RrtConnect);
     while *plan.stage() == PlanStage::Growing {
         plan.step();
@@ -256,4 +261,25 @@ fn the_robot_and_its_readings_are_drawn_where_it_is() {
 /// The distance of a point from the world's walls, metres.
 fn from_walls(plan: &PlanState, p: Point2) -> f64 {
     plan.task().scene.distance(&Footprint::disc(p, 0.0))
+}
+
+/// The rover crosses the Apartment: no planner's path is shorter than the bound, and the tangent graph's is within a
+/// millimetre of it.
+#[test]
+fn a_rovers_path_stands_beside_the_length_that_none_undercuts() {
+    let [(robot, start), (_, goal)] =
+        [[1.5, 5.75, 0.0], [9.75, 6.25, 0.0]].map(|q| AnyRobot::of_kind("rusty", &q).unwrap());
+    let mut plan = PlanState::of(Task::new("Rusty", robot, World::apartment(), [start, goal]));
+    let mut bounds = Vec::new();
+    for (planner, more) in [(PlannerName::TangentGraph, 1e-3), (PlannerName::RrtConnect, 20.0)] {
+        plan.set_planner(planner);
+        while *plan.stage() == PlanStage::Growing {
+            plan.step();
+        }
+        let (length, bound) = (plan.lengths().unwrap().length, plan.length_bound().unwrap());
+        assert!(length > bound && length < bound + more, "{planner:?}: {length} {bound}");
+        bounds.push(bound);
+    }
+    assert_eq!(bounds[0], bounds[1], "whatever the planner");
+    assert!(PlanState::default().length_bound().is_none(), "an arm has none");
 }

@@ -3,6 +3,7 @@
 mod bug1;
 mod bug2;
 mod cell_decomposition;
+mod disc;
 mod frontier;
 mod grid_search;
 mod potential_field;
@@ -10,6 +11,7 @@ mod prm;
 mod rrt;
 mod rrt_connect;
 mod rrt_star;
+mod tangents;
 mod visibility_graph;
 mod walker;
 
@@ -22,4 +24,5 @@ pub use prm::Prm;
 pub use rrt::Rrt;
 pub use rrt_connect::RrtConnect;
 pub use rrt_star::RrtStar;
+pub use tangents::{TangentGraph, length_bound};
 pub use visibility_graph::VisibilityGraph;

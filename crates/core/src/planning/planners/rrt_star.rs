@@ -5,7 +5,7 @@ use std::f64::consts::E;
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
 use crate::num::ln;
-use crate::planning::{Nearest, Planner, Progress, SamplingSettings, Search, sample_toward_goal};
+use crate::planning::{Nearest, Planner, Progress, SamplingSettings, Search, sample_shorter, sample_toward_goal};
 use crate::robots::Robot;
 
 /// RRT* (Karaman and Frazzoli, 2011), with the k nearest: a new node is reached from that neighbour from which it is
@@ -14,10 +14,14 @@ use crate::robots::Robot;
 ///
 /// Once it has a path it goes on: every further iteration may shorten it. An iteration draws a sample and asks about at
 /// most twice as many edges as there are neighbours, `e (1 + 1/d) ln n` of n nodes in d dimensions.
+///
+/// [`informed`](Self::informed) it draws, once it has a path, only samples through which a shorter one may lead
+/// (Gammell, Srinivasa and Barfoot, 2014): those whose distances to start and goal add up to less than its length.
 #[derive(Clone, Debug)]
 pub struct RrtStar<R: Robot> {
     search: Search<R>,
     settings: SamplingSettings,
+    is_informed: bool,
     tree: Nearest,
     /// The length of each node's way from the start.
     costs: Vec<f64>,
@@ -40,9 +44,26 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
         let tree = Nearest::new(settings.metric.clone());
         let search = Search::from_start(problem);
         let (start, costs, children, ends) = (search.at(0), Vec::new(), Vec::new(), Vec::new());
-        let mut planner = RrtStar { search, settings, tree, costs, children, ends, cost: f64::INFINITY };
+        let (is_informed, cost) = (false, f64::INFINITY);
+        let mut planner = RrtStar { search, settings, is_informed, tree, costs, children, ends, cost };
         planner.enlist(start, 0, 0.0);
         planner
+    }
+
+    /// Informed RRT* with its usual settings. Where a region around the goal solves the problem it draws from all of
+    /// the space, as the planner does that is not informed.
+    pub fn informed(problem: Problem<R>) -> Self {
+        RrtStar { is_informed: true, ..Self::new(problem) }
+    }
+
+    /// The next sample; `None` where none may shorten the path.
+    fn sample(&mut self) -> Option<R::Configuration> {
+        let problem = &mut self.search.problem;
+        self.search.growth.count_sample();
+        if self.is_informed && problem.region().is_none() && self.cost < f64::INFINITY {
+            return sample_shorter(problem, &self.settings.metric, self.cost);
+        }
+        Some(sample_toward_goal(problem, self.settings.goal_bias))
     }
 
     /// Keeps what the planner needs to know of a new node.
@@ -56,8 +77,7 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
     }
 
     fn grow(&mut self) -> Option<()> {
-        let sample = sample_toward_goal(&mut self.search.problem, self.settings.goal_bias);
-        self.search.growth.count_sample();
+        let sample = self.sample()?;
         let near = self.tree.nearest(&sample)?;
         if near.distance == 0.0 {
             // the goal is a node already
@@ -115,7 +135,7 @@ impl<R: Robot<Configuration: Chart>> RrtStar<R> {
 
 impl<R: Robot<Configuration: Chart>> Planner<R> for RrtStar<R> {
     fn name(&self) -> &'static str {
-        "rrt-star"
+        if self.is_informed { "informed-rrt-star" } else { "rrt-star" }
     }
 
     fn search(&self) -> &Search<R> {

@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use super::disc::{moved, position, radius_of};
 use super::frontier::Frontier;
 use crate::collision::{Problem, Scene};
-use crate::configuration::{Chart, Configuration, Coordinates};
-use crate::geometry::{Footprint, Placed, Point2, Vector2};
+use crate::configuration::{Chart, Configuration};
+use crate::geometry::{Placed, Point2, Vector2};
 use crate::num::{cos, sin_cos, sqrt};
 use crate::planning::{MARGIN, NoPath, Planner, Search};
 use crate::robots::Robot;
@@ -38,11 +39,7 @@ impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
     pub fn new(problem: Problem<R>) -> Self {
         let (start, goal) = (problem.start().in_chart(), problem.goal().in_chart());
         let radius = radius_of(&problem.checker().robot().footprint(&start));
-        let at = |p: Point2| {
-            let mut tangent: Coordinates = start.coordinates().iter().map(|_| 0.0).collect();
-            (tangent[0], tangent[1]) = (p.x - start.coordinates()[0], p.y - start.coordinates()[1]);
-            start.exp(&tangent)
-        };
+        let at = |p: Point2| moved(&start, p - position(&start));
         let mut corners = vec![goal];
         if let Some(radius) = radius {
             let grown = corners_of(problem.checker().scene(), radius);
@@ -86,14 +83,6 @@ impl<R: Robot<Configuration: Chart>> VisibilityGraph<R> {
                 }
             }
         }
-    }
-}
-
-/// The radius of a footprint that is a disc, metres.
-fn radius_of(footprint: &Footprint) -> Option<f64> {
-    match footprint.parts() {
-        [part] if part.placed().core().len() == 1 => Some(part.placed().radius()),
-        _ => None,
     }
 }
 

@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::disc::{moved, position, radius_of};
 use crate::collision::Problem;
-use crate::configuration::{Chart, Configuration, Coordinates};
+use crate::configuration::{Chart, Configuration};
 use crate::geometry::{Point2, Vector2};
 use crate::num::{greater, hypot, lesser, sin_cos};
 use crate::planning::{NoPath, Search};
@@ -64,12 +65,8 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
     /// A walker at the start; `None` where the robot is not a disc.
     pub(super) fn try_new(problem: &Problem<R>) -> Option<Self> {
         let start = problem.start().in_chart();
-        let footprint = problem.checker().robot().footprint(&start);
-        let [part] = footprint.parts() else { return None };
-        if part.placed().core().len() != 1 {
-            return None;
-        }
-        let (search, radius) = (Search::from_start(problem.clone()), part.placed().radius());
+        let radius = radius_of(&problem.checker().robot().footprint(&start))?;
+        let search = Search::from_start(problem.clone());
         Some(Walker {
             search,
             keep: KEEP * radius,
@@ -96,8 +93,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
 
     /// Where its centre was at a node, metres.
     pub(super) fn place(&self, node: usize) -> Point2 {
-        let c = self.search.at(node).coordinates();
-        Point2::new(c[0], c[1])
+        position(&self.search.at(node))
     }
 
     pub(super) fn here(&self) -> Point2 {
@@ -105,8 +101,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
     }
 
     pub(super) fn goal(&self) -> Point2 {
-        let c = self.search.problem.goal().coordinates();
-        Point2::new(c[0], c[1])
+        position(&self.search.problem.goal())
     }
 
     /// The length of a step along a boundary, metres.
@@ -120,10 +115,7 @@ impl<R: Robot<Configuration: Chart>> Walker<R> {
     }
 
     fn moved(&self, by: Vector2) -> Option<R::Configuration> {
-        let here = self.search.at(self.node());
-        let mut tangent: Coordinates = here.coordinates().iter().map(|_| 0.0).collect();
-        (tangent[0], tangent[1]) = (by.x, by.y);
-        here.exp(&tangent)
+        moved(&self.search.at(self.node()), by)
     }
 
     fn step(&mut self, by: Vector2) -> bool {

@@ -22,7 +22,14 @@ fn a_chart_is_drawn_pixel_for_pixel_with_its_values_where_the_axes_say() {
         contacts: Vec::new(),
     };
     let lines = vec![line("a", &[&[[0.0, 0.0], [5.0, 10.0]], &[[10.0, 5.0]]]), line("b", &[])];
-    let chart = PlotChart { up: "height, m", across: "time, s", span: [0.0, 10.0], only: None, angles: false, lines };
+    let chart = PlotChart {
+        up: "height, m",
+        across: "time, s",
+        span: [0.0, 10.0],
+        only: None,
+        values: PlotValues::FromZero,
+        lines,
+    };
     for width in [200.0, 640.0, 1280.0] {
         let picture = chart.picture(width - 56.0);
         assert_eq!(motion_lab_core::picture::Figure::of(picture.clone()).px_per_metre(width), [1.0], "{width}");
@@ -48,8 +55,10 @@ fn contacts_are_shaded_from_their_beginning_to_their_end_and_belong_to_their_lin
         pieces: vec![(0..=4).map(|x| [f64::from(x), 1.0]).collect(), vec![[8.0, 2.0]]],
         contacts: contacts.to_vec(),
     };
-    let chart =
-        |lines| PlotChart { up: "u", across: "t", span: [0.0, 10.0], only: None, angles: false, lines }.picture(640.0);
+    let chart = |lines| {
+        PlotChart { up: "u", across: "t", span: [0.0, 10.0], only: None, values: PlotValues::FromZero, lines }
+            .picture(640.0)
+    };
     let picture = chart(vec![line("a", &[[1.0, 3.0], [8.0, 9.0]]), line("b", &[[2.0, 4.0], [10.0, 10.5]])]);
     let find = |id: &str| picture.items.iter().find(|i| i.id == id);
     let Drawing::Region { pieces, .. } = &find("contacts").unwrap().drawing else { panic!("columns") };

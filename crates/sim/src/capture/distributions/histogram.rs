@@ -2,7 +2,7 @@
 
 use super::quartiles::Quartiles;
 use crate::capture::captured::{Captured, Note};
-use crate::capture::chart::{PlotChart, PlotLine};
+use crate::capture::chart::{PlotChart, PlotLine, PlotValues};
 use motion_lab_core::picture::{Figure, Panel};
 
 /// One quantity with its values in many runs, to be drawn as a histogram.
@@ -41,7 +41,7 @@ pub fn histograms(title: &str, distributions: &[Distribution], notes: Vec<Note>)
             None => format!("{name} of {count} runs goes from {low:.3} to {high:.3}, median {median:.3}."),
         });
         let line = PlotLine { name: "runs".into(), pieces: vec![outline(&bins)], contacts: vec![] };
-        let chart = PlotChart { up: "runs", across: name, span, only, angles: false, lines: vec![line] };
+        let chart = PlotChart { up: "runs", across: name, span, only, values: PlotValues::FromZero, lines: vec![line] };
         panels.push(Panel { picture: chart.picture(WIDTH), heading: name.clone(), readout: Vec::new() });
     }
     let (title, description) = (title.to_owned(), sentences.join(" "));

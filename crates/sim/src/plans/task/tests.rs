@@ -55,7 +55,7 @@ fn a_path_verifies_once_more_with_the_clearance_that_it_has() {
 
 #[test]
 fn planners_that_draw_samples_keep_a_millimetre_where_start_and_goal_have_more() {
-    use PlannerName::{Prm, Rrt, RrtConnect, RrtStar};
+    use PlannerName::{InformedRrtStar, Prm, Rrt, RrtConnect, RrtStar};
     let text = "World(version: 1, name: \"hall\", bounds: (min: (0, 0), max: (4, 4)), \
                 walls: [(name: \"floor\", points: [(0, 0), (4, 0)])], robots: [])";
     // the rover has 0.11 m and a tube of 0.02 m
@@ -65,7 +65,7 @@ fn planners_that_draw_samples_keep_a_millimetre_where_start_and_goal_have_more()
         Task::new("Rusty", robot, World::parse("hall.ron", text).unwrap(), [start, goal])
     };
     for name in PlannerName::ALL {
-        let kept = if matches!(name, RrtConnect | Rrt | RrtStar | Prm) { 1e-3 } else { 0.0 };
+        let kept = if matches!(name, RrtConnect | Rrt | RrtStar | InformedRrtStar | Prm) { 1e-3 } else { 0.0 };
         assert_eq!(task(0.132, 0.132).usual_clearance(name.draws_samples()), kept, "{}", name.id());
         assert_eq!(task(0.1305, 2.0).usual_clearance(name.draws_samples()), 0.0, "{}", name.id());
         assert_eq!(task(2.0, 0.1305).usual_clearance(name.draws_samples()), 0.0, "{}", name.id());
