@@ -141,13 +141,16 @@ mod tests {
         let (start, goal) = (T2::new(2.0, 0.0), T2::new(3.1, 0.0));
         let metric = Metric::unit(&start);
         let mut problem = Problem::try_new(checker, start, goal, Seed(3)).unwrap();
-        let mut drawn = 0;
+        let (mut drawn, mut between) = (0, 0);
         for _ in 0..200 {
             let Some(q) = sample_shorter(&mut problem, &metric, 4.0) else { continue };
             assert!(metric.distance(&start, &q) + metric.distance(&q, &goal) < 4.0, "{q}");
             drawn += 1;
+            let is_apart = |end| metric.distance(end, &q) > 0.5;
+            between += u32::from(is_apart(&start) && is_apart(&goal));
         }
-        assert!(drawn > 180, "{drawn}");
+        // nearly an ellipse of half axes 2 and 1.92: all but 13 in 100 lie outside the two circles about its foci
+        assert!(drawn > 180 && between > 7 * drawn / 10, "{drawn} {between}");
     }
 
     #[test]

@@ -97,8 +97,8 @@ const LEAST_GAIN: f64 = 1e-4;
 
 impl<R: Robot<Configuration: Chart>> LinePath<R> {
     /// The path [pruned](Self::pruned), with 200 [shortcuts](Self::shortcut), pruned again and
-    /// [smoothed](Self::smoothed) up to four times over, as long as that makes it shorter by a ten-thousandth. Never
-    /// longer by the metric, and certified; it keeps the [`MARGIN`] where the path does.
+    /// [smoothed](Self::smoothed) up to four times over, as long as that makes it shorter by 1e-4. Never longer by the
+    /// metric, and certified; it keeps the [`MARGIN`] where the path does.
     #[must_use]
     pub fn shortened(&self, checker: &Checker<R>, metric: &Metric, stream: &mut Stream) -> Self {
         let cut = self.pruned(checker, metric).shortcut(checker, metric, stream, SHORTCUTS);

@@ -1,11 +1,9 @@
 //! How the lengths of planners' paths fell over their iterations, as a figure.
 
 use super::chart::{MAX_LINES, PlotChart, PlotLine, PlotValues};
+use super::plot::BORDERS;
 use super::{Captured, Note};
 use motion_lab_core::picture::Figure;
-
-/// The room that a figure has beside its picture, pixels.
-const BORDERS: f64 = 56.0;
 
 /// How the length of a planner's path fell.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,7 +9,7 @@ use motion_lab_core::picture::Figure;
 use motion_lab_core::random::Seed;
 
 /// The room that a figure has beside its picture, pixels: its borders, and those within the picture's frame.
-const BORDERS: f64 = 56.0;
+pub(in crate::capture) const BORDERS: f64 = 56.0;
 
 /// The lines of a plot, and the run that they are of.
 #[derive(Clone, Debug)]
