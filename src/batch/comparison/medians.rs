@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use motion_lab_sim::capture::CostLine;
+use motion_lab_sim::capture::CostCurve;
 use motion_lab_sim::export::JsonNumber;
 use motion_lab_sim::plans::{PathLengths, PlannerName};
 use serde::Serialize;
@@ -65,11 +65,11 @@ fn median_cost(attempts: &[&ComparedAttempt]) -> Vec<(u64, f64)> {
 
 impl PlannerComparison {
     /// How the lengths of the planners' paths fell, as medians over the attempts of each, in the planners' order.
-    pub fn median_costs(&self, attempts: &[ComparedAttempt]) -> Vec<CostLine> {
+    pub fn median_costs(&self, attempts: &[ComparedAttempt]) -> Vec<CostCurve> {
         let of = |planner: &PlannerName| {
             let own: Vec<_> = attempts.iter().filter(|a| a.planner == *planner && a.case.asked.is_some()).collect();
             let end = own.iter().map(|attempt| attempt.effort.iterations).max().unwrap_or(0);
-            CostLine { planner: planner.title().to_owned(), steps: median_cost(&own), end }
+            CostCurve { planner: planner.title().to_owned(), steps: median_cost(&own), end }
         };
         self.planners.iter().map(of).collect()
     }

@@ -7,7 +7,7 @@ use motion_lab_core::picture::Figure;
 
 /// How the length of a planner's path fell.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CostLine {
+pub struct CostCurve {
     /// The planner's name in books.
     pub planner: String,
     /// The iterations after which it was seen to be another, and the length from there on.
@@ -18,9 +18,9 @@ pub struct CostLine {
 
 /// The lines of a figure of lengths, and what they are of.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CostSheet {
+pub struct CostFigure {
     /// The lines; those beyond [`MAX_LINES`] are left out.
-    pub lines: Vec<CostLine>,
+    pub lines: Vec<CostCurve>,
     /// The number of attempts that each is the median of.
     pub attempts: usize,
     /// The unit of the lengths.
@@ -31,8 +31,8 @@ pub struct CostSheet {
 
 /// The figure for a sheet of this width, pixels: each line falls in steps, begins where more than half of the attempts
 /// have a path, and goes on level where its planner works no more.
-pub fn costs(sheet: &CostSheet, width_px: f64) -> Captured {
-    let CostSheet { lines, attempts, unit, problem } = sheet;
+pub fn costs(sheet: &CostFigure, width_px: f64) -> Captured {
+    let CostFigure { lines, attempts, unit, problem } = sheet;
     let drawn = &lines[..lines.len().min(MAX_LINES)];
     let end = drawn.iter().map(|line| line.end).max().unwrap_or(0).max(1);
     let up = format!("length of the path, {unit}");
@@ -58,7 +58,7 @@ pub fn costs(sheet: &CostSheet, width_px: f64) -> Captured {
 }
 
 /// The line in steps: level up to where the length is another, and up to the end.
-fn stepped(line: &CostLine, end: u64) -> PlotLine {
+fn stepped(line: &CostCurve, end: u64) -> PlotLine {
     let mut piece: Vec<[f64; 2]> = Vec::new();
     for &(iterations, length) in &line.steps {
         if let Some(&[_, before]) = piece.last() {
@@ -74,7 +74,7 @@ fn stepped(line: &CostLine, end: u64) -> PlotLine {
 }
 
 /// The line for readers who do not see the figure.
-fn sentence(line: &CostLine, unit: &str) -> String {
+fn sentence(line: &CostCurve, unit: &str) -> String {
     match &line.steps[..] {
         [] => format!("{} has a path in at most half of the attempts.", line.planner),
         [(at, length)] => format!("{} has {length:.3} {unit} from iteration {at} on.", line.planner),
@@ -89,15 +89,15 @@ mod tests {
     use super::*;
     use motion_lab_core::picture::Drawing;
 
-    fn line(planner: &str, steps: &[(u64, f64)]) -> CostLine {
-        CostLine { planner: planner.into(), steps: steps.to_vec(), end: 400 }
+    fn line(planner: &str, steps: &[(u64, f64)]) -> CostCurve {
+        CostCurve { planner: planner.into(), steps: steps.to_vec(), end: 400 }
     }
 
     #[test]
     fn lines_fall_in_steps_between_the_lengths_that_there_are() {
-        let b = CostLine { end: 60, ..line("B", &[(40, 8.5)]) };
+        let b = CostCurve { end: 60, ..line("B", &[(40, 8.5)]) };
         let lines = vec![line("A", &[(100, 9.0), (300, 8.0)]), b, line("C", &[])];
-        let sheet = CostSheet { lines, attempts: 3, unit: "m", problem: "R in end".into() };
+        let sheet = CostFigure { lines, attempts: 3, unit: "m", problem: "R in end".into() };
         let captured = costs(&sheet, 640.0);
         let picture = &captured.figure.panels[0].picture;
         let outline = |id: &str| match &picture.items.iter().find(|item| item.id == id).unwrap().drawing {
@@ -122,7 +122,7 @@ mod tests {
             captured.figure.caption,
             ["Medians over 3 attempts, from where more than half of them have a path."]
         );
-        let many = CostSheet { lines: vec![sheet.lines[0].clone(); MAX_LINES + 2], ..sheet };
+        let many = CostFigure { lines: vec![sheet.lines[0].clone(); MAX_LINES + 2], ..sheet };
         assert!(costs(&many, 640.0).figure.caption[0].ends_with(" 2 more planners are left out."));
         assert!(captured.figure.description.contains("A has 9.000 m at iteration 100, and 8.000 m from 300 on."));
         assert!(captured.figure.description.contains("C has a path in at most half of the attempts."));

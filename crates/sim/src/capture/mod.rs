@@ -31,7 +31,7 @@ mod tour_figure;
 
 pub use captured::{CaptureForm, Captured, Note, Paper, TICK_HUNDREDTHS};
 pub use chart::MAX_LINES;
-pub use costs::{CostLine, CostSheet, costs};
+pub use costs::{CostCurve, CostFigure, costs};
 pub use distributions::{ByValue, Distribution, Quartiles, boxes, histograms};
 pub use error::CaptureError;
 pub use film::Film;

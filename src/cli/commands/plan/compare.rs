@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use motion_lab_core::robots::AnyRobot;
-use motion_lab_sim::capture::{CostSheet, costs, proven};
+use motion_lab_sim::capture::{CostFigure, costs, proven};
 use motion_lab_sim::plans::PlannerName;
 
 use super::answer::PlanAnswer;
@@ -118,7 +118,7 @@ fn write_costs(
         None => format!("{} problems", problems.len()),
     };
     let lines = comparison.median_costs(attempts);
-    let sheet = CostSheet { lines, attempts: count, unit: comparison.unit(), problem };
+    let sheet = CostFigure { lines, attempts: count, unit: comparison.unit(), problem };
     let paper = args.paper.paper();
     write_picture(&costs(&sheet, f64::from(paper.width)), &paper, form, target)
 }

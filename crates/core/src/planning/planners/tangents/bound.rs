@@ -6,7 +6,7 @@ use crate::planning::planners::disc::{position, radius_of};
 use crate::robots::Robot;
 
 use super::rim::TOLERANCE;
-use super::search::{Found, TangentSearch};
+use super::search::{TangentSearch, TangentStep};
 use super::space::DiscSpace;
 
 /// The share of a length that is taken off for rounding.
@@ -43,9 +43,9 @@ pub fn length_bound<R: Robot>(problem: &Problem<R>) -> Option<f64> {
     let mut search = TangentSearch::new(space, position(&problem.start()), position(&problem.goal()));
     loop {
         let least = match search.next() {
-            Found::Rim(_) => continue,
-            Found::Goal(_) | Found::TooMany => search.bound(),
-            Found::Nothing => return Some(f64::INFINITY),
+            TangentStep::Rim(_) => continue,
+            TangentStep::Goal(_) | TangentStep::TooMany => search.bound(),
+            TangentStep::Nothing => return Some(f64::INFINITY),
         };
         return Some(greater(least * (1.0 - ROUNDING), 0.0));
     }

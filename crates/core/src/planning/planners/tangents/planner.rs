@@ -11,7 +11,7 @@ use crate::planning::{NoPath, Planner, Search};
 use crate::robots::Robot;
 
 use super::bound::length_bound;
-use super::search::{Found, TangentSearch};
+use super::search::{TangentSearch, TangentStep};
 use super::space::DiscSpace;
 
 /// The clearance that the planner keeps about corners at first, metres.
@@ -130,8 +130,8 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for TangentGraph<R> {
 
     fn advance(&mut self) {
         match self.tangents.next() {
-            Found::Rim(line) => _ = self.reach(line, false),
-            Found::Goal(line) => {
+            TangentStep::Rim(line) => _ = self.reach(line, false),
+            TangentStep::Goal(line) => {
                 if let Some(node) = self.reach(line, true) {
                     let length = self.tangents.way(line).cost;
                     if self.best.is_none_or(|(shortest, _)| length < shortest) {
@@ -140,9 +140,9 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for TangentGraph<R> {
                     self.conclude();
                 }
             }
-            Found::Nothing => self.conclude(),
-            Found::TooMany if self.best.is_some() => self.conclude(),
-            Found::TooMany => {
+            TangentStep::Nothing => self.conclude(),
+            TangentStep::TooMany if self.best.is_some() => self.conclude(),
+            TangentStep::TooMany => {
                 self.search.end = Some(NoPath::Unsuited("it looks at a million lines at most, and there are more"))
             }
         }

@@ -12,11 +12,11 @@ const START: usize = 0;
 const GOAL: usize = 1;
 
 /// The greatest number of lines that a search holds: some 100 MB.
-const MAX_WAYS: usize = 1 << 20;
+const MAX_RIM_PATHS: usize = 1 << 20;
 
 /// A way to a rim: the way to the rim before, along an arc on that, and by a line that touches both.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct TautWay {
+pub(super) struct RimPath {
     /// The line to the rim before; `None` where that is the start.
     pub(super) before: Option<usize>,
     rim: usize,
@@ -29,20 +29,20 @@ pub(super) struct TautWay {
 
 /// What a search has come to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Found {
+pub(super) enum TangentStep {
     /// The shortest way to a rim, by the number of its last line.
     Rim(usize),
     /// The shortest way to the goal.
     Goal(usize),
     /// There is no way.
     Nothing,
-    /// There are more lines than are looked at. No way is shorter than [`TangentSearch::bound`].
+    /// There are more lines than it examines. No way is shorter than [`TangentSearch::bound`].
     TooMany,
 }
 
 /// A search for the shortest way of a point that keeps off the obstacles, as far as the rims' radii.
 ///
-/// Lines are looked at in the order of the least length that a whole way through them has, and asked about when their
+/// Lines are examined in the order of the least length that a whole way through them has, and checked when their
 /// turn has come.
 #[derive(Clone, Debug)]
 pub(super) struct TangentSearch {
@@ -50,7 +50,7 @@ pub(super) struct TangentSearch {
     rims: Vec<Rim>,
     /// The blocked intervals of the rims that were reached.
     blocked: Vec<Option<Vec<[f64; 2]>>>,
-    lines: Vec<TautWay>,
+    lines: Vec<RimPath>,
     open: Queue,
     /// The lines that are the shortest ways, by rim.
     closed: Vec<Vec<usize>>,
@@ -78,12 +78,12 @@ impl TangentSearch {
         self.bound
     }
 
-    pub(super) fn way(&self, number: usize) -> &TautWay {
+    pub(super) fn way(&self, number: usize) -> &RimPath {
         &self.lines[number]
     }
 
     /// Looks for the next shortest way to a rim.
-    pub(super) fn next(&mut self) -> Found {
+    pub(super) fn next(&mut self) -> TangentStep {
         while let Some(number) = self.open.pop() {
             self.bound = self.least(&self.lines[number]);
             if !self.is_shortest(number) {
@@ -91,29 +91,29 @@ impl TangentSearch {
             }
             let rim = self.lines[number].rim;
             if rim == GOAL {
-                return Found::Goal(number);
+                return TangentStep::Goal(number);
             }
-            if self.lines.len() > MAX_WAYS {
-                return Found::TooMany;
+            if self.lines.len() > MAX_RIM_PATHS {
+                return TangentStep::TooMany;
             }
             self.closed[rim].push(number);
             self.leave(Some(number));
-            return Found::Rim(number);
+            return TangentStep::Rim(number);
         }
-        Found::Nothing
+        TangentStep::Nothing
     }
 
     /// The least length of a way to the goal through a line.
-    fn least(&self, line: &TautWay) -> f64 {
+    fn least(&self, line: &RimPath) -> f64 {
         let rest = self.rims[GOAL].centre - line.tangent.to;
         line.cost + hypot(rest.x, rest.y)
     }
 
     /// Whether a line is free, and no way that is closed leads along its rim to the same place as shortly.
     fn is_shortest(&mut self, number: usize) -> bool {
-        let TautWay { rim, turn, tangent, cost, .. } = self.lines[number];
+        let RimPath { rim, turn, tangent, cost, .. } = self.lines[number];
         for other in self.closed[rim].clone() {
-            let TautWay { turn: other_turn, tangent: Tangent { arrives: from, .. }, cost: before, .. } =
+            let RimPath { turn: other_turn, tangent: Tangent { arrives: from, .. }, cost: before, .. } =
                 self.lines[other];
             if other_turn != turn {
                 continue;
@@ -140,7 +140,7 @@ impl TangentSearch {
         let (rim, turn, arrived, cost) = match before {
             None => (START, 1.0, 0.0, 0.0),
             Some(line) => {
-                let TautWay { rim, turn, tangent, cost, .. } = self.lines[line];
+                let RimPath { rim, turn, tangent, cost, .. } = self.lines[line];
                 (rim, turn, tangent.arrives, cost)
             }
         };
@@ -154,7 +154,7 @@ impl TangentSearch {
                     continue;
                 }
                 let cost = cost + self.rims[rim].radius * angle + tangent.length;
-                let line = TautWay { before, rim: to, turn: next, tangent, cost };
+                let line = RimPath { before, rim: to, turn: next, tangent, cost };
                 self.open.push(self.least(&line), self.lines.len());
                 self.lines.push(line);
             }
@@ -167,7 +167,7 @@ impl TangentSearch {
         let tangent = self.lines[number].tangent;
         let mut corners = Vec::new();
         if let Some(before) = self.lines[number].before {
-            let TautWay { rim, turn, tangent: arrival, .. } = self.lines[before];
+            let RimPath { rim, turn, tangent: arrival, .. } = self.lines[before];
             let rim = &self.rims[rim];
             let angle = turned(turn, arrival.arrives, tangent.leaves);
             // the middle of a chord is nearer than its ends by `r (1 - cos (part / 2))`, less than `r part^2 / 8`
