@@ -3,8 +3,8 @@
 
 A barrier names shapes, a robot, a start and a goal, and cells: boxes of configurations. This program proves two things again. At the middle of
 each cell the named part of the robot is deeper in the named obstacle than any of its points moves within the cell, so every configuration in
-the cell is in contact. And when all cells are taken away, the start and the goal lie in different pieces of what is left, for a rover of the
-world's bounds, for an arm of the torus. So every curve from the one to the other meets a cell, and no path is free.
+the cell is in contact. And when all cells are taken away, the start and the goal lie in different pieces of what is left, for a rover and a car
+of the world's bounds, for an arm of the torus. So every curve from the one to the other meets a cell, and no path is free.
 
 Numbers, shapes and robots are those of certificate.py, whose rules hold here: numbers are the doubles that the file's digits read as, computed
 to 60 digits, and a claim is accepted because it is true in real numbers. SLACK is taken off every depth and every cell. The proof is about the
@@ -21,23 +21,23 @@ from math import prod
 
 sys.dont_write_bytecode = True
 
-from certificate import SLACK, TAU, Refused, cos_sin, from_origin, length, number, parts, place, read, require, turn
+from certificate import SLACK, TAU, Refused, cos_sin, from_origin, is_arm, length, number, parts, place, read, require, turn
 
 PI = TAU / 2
 # More boxes are not flooded: a file of the lab has a tenth of them.
 BOXES = 4_000_000
 
 
-# Depths. A part's core is a point or a segment, an obstacle's a point, a segment or a convex polygon; a shape is all within its radius of its
-# core. Let every point of the part move by at most d, the part staying a point or a straight segment whose points are the same means of its
-# ends. Two shapes stay in contact while their cores stay within the sum of the radii, which each of these proves for every d below it:
+# Depths. A core is a point, a segment or a convex polygon; a shape is all within its radius of its core. Let every point of the part move by at
+# most d, a polygon as a rigid body, a segment staying one whose points are the same means of its ends. Two shapes stay in contact while their
+# cores stay within the sum of the radii, which each of these proves for every d below it:
 #
 # - A point of the part's core lies in the obstacle's core, d below its depth in it plus the radii; or outside it, d below the radii less its
-#   distance. For its distance from the obstacle's core grows by at most d.
-# - A point of the obstacle's core lies outside the part's core, d below the radii less their distance, for the same reason.
-# - The part's core crosses a side of the obstacle's core, d below the radii plus the least distance of an end of either from the other. While
-#   the part moves straight from place to place they cross until an end of one meets the other, which takes that much of the movement; what is
-#   left of it then moves the cores apart by at most as much.
+#   distance. For its distance from the obstacle's core, negative inside it, grows by at most d.
+# - A point of the obstacle's core lies in or outside the part's core, for the same reason.
+# - A side of the part's core crosses a side of the obstacle's core, d below the radii plus the least distance of an end of either from the other.
+#   While the side moves straight from place to place they cross until an end of one meets the other, which takes that much of the movement; what
+#   is left of it then moves the cores apart by at most as much.
 
 
 def sides(core):
@@ -70,27 +70,33 @@ def crossing(p, q):
     return [min([gap(end, q) for end in p] + [gap(end, p) for end in q])] if opposite(p, q) and opposite(q, p) else []
 
 
-def depth(part, radius, shape):
-    """How far the points of a part may move, at least, while it stays in contact with a shape."""
-    core = shape["core"]
-    found = [-distance_out(p, core) for side in sides(part) for p in along(side)]
-    found += [-distance_out(p, part) for side in sides(core) for p in along(side)]
-    found += [c for side in sides(core) for c in crossing((part[0], part[-1]), side)]
-    return max(found) + radius + shape["radius"] - SLACK
+def depths(part, radius, shape):
+    """How far the points of a part may move while it stays in contact with a shape, by each proof that there is."""
+    core, both = shape["core"], radius + shape["radius"] - SLACK
+    yield from (both - distance_out(p, core) for side in sides(part) for p in along(side))
+    yield from (both - distance_out(p, part) for side in sides(core) for p in along(side))
+    yield from (both + c for ours in sides(part) for theirs in sides(core) for c in crossing(ours, theirs))
 
 
-def bound(robot, part, half):
+def bound(robot, part, half, core):
     """How far a point of a part moves from the middle of a cell to anywhere in it, at most.
 
-    A rover moves as its centre does. A point of link k is the base and a sum of vectors, one for each of the links 1 to k and no longer than it.
-    The vector of link j turns by at most the sum of the half sides 1 to j, and a vector of length L that turns by a moves its end by
-    2 L sin(a / 2) where a is at most half a turn, and never by more than 2 L.
+    A rover moves as its centre does, a car's body as its rear axle does and about that. A point of link k is the base and a sum of vectors, one for
+    each of the links 1 to k and no longer than it; the vector of link j turns by at most the sum of the half sides 1 to j. A vector of length L that
+    turns by a moves its end by 2 L sin(a / 2) where a is at most half a turn, and never by more than 2 L.
     """
-    if robot["kind"] == "rusty":
-        return length(half) + SLACK
-    turned = [sum(half[: j + 1]) for j in range(part + 1)]
     chord = lambda a: 2 * (cos_sin(a / 2)[1] if a < PI else 1)
-    return sum(ahead * chord(a) for ahead, a in zip(robot["lengths"], turned)) + SLACK
+    if is_arm(robot):
+        turned = [sum(half[: j + 1]) for j in range(part + 1)]
+        return sum(ahead * chord(a) for ahead, a in zip(robot["lengths"], turned)) + SLACK
+    turning = max(length(v) for v in core) * chord(half[2]) if robot["kind"] == "hitch" else 0
+    return length(half[:2]) + turning + SLACK
+
+
+def placed(robot, its_part, q):
+    """The core of a part at a configuration; of a car's body the corners in their order."""
+    core = [place(robot, vertex, q) for vertex in its_part]
+    return core if len(core) < 4 else [core[i] for i in (0, 1, 3, 2)]
 
 
 def blocked(barrier, cell, its_parts):
@@ -99,13 +105,15 @@ def blocked(barrier, cell, its_parts):
     require(part in range(len(its_parts)), f"part {part} is none of the robot's")
     shapes = [s for s in barrier["world"]["obstacles"] if s["obstacle"] == cell["obstacle"] and s["name"] == cell["name"]]
     require(shapes, f"there is no obstacle {cell['obstacle']} called {cell['name']}")
-    core = [place(robot, vertex, cell["middle"]) for vertex in its_parts[int(part)]]
-    true_depth = max(depth(core, robot["radius"], shape) for shape in shapes)
-    true_bound = bound(robot, int(part), cell["half"])
-    require(cell["depth"] <= true_depth, f"the cell claims a depth of {float(cell['depth'])} m; {float(true_depth)} m are proven")
+    own = its_parts[int(part)]
+    core, at_origin = placed(robot, own, cell["middle"]), placed(robot, own, [Decimal(0)] * len(cell["middle"]))
+    radius = 0 if robot["kind"] == "hitch" else robot["radius"]
+    proofs = (d for shape in shapes for d in depths(core, radius, shape))
+    require(any(cell["depth"] <= d for d in proofs), f"the cell claims a depth of {float(cell['depth'])} m; less is proven")
+    true_bound = bound(robot, int(part), cell["half"], at_origin)
     require(cell["bound"] >= true_bound, f"the cell claims a bound of {float(cell['bound'])} m; its points may move {float(true_bound)} m")
     require(cell["bound"] < cell["depth"], "the part may leave the obstacle within the cell")
-    return true_depth - true_bound
+    return cell["depth"] - true_bound
 
 
 # Flooding. Along each axis the ends of the cells cut the range into pieces. A box of pieces, one of each axis, lies in a cell or holds no inner
@@ -180,19 +188,21 @@ def parted(barrier, ranges):
 def check(barrier):
     """The number of cells, and by how much the depth of the shallowest is beyond its bound. Raises Refused."""
     require(barrier["kind"] == "barrier" and barrier["version"] == 1, "this program reads barriers of version 1")
-    robot, cells = barrier["robot"], barrier["cells"]
-    require(robot["kind"] in ("rusty", "reach"), f"a robot of kind {robot['kind']}")
-    is_arm = robot["kind"] == "reach"
-    (low, high) = barrier["world"]["bounds"]
-    ranges = [(-PI, PI, True)] * len(robot["lengths"]) if is_arm else [(a, b, False) for a, b in zip(low, high)]
+    robot, cells, bounds = barrier["robot"], barrier["cells"], barrier["world"]["bounds"]
+    require(robot["kind"] in ("rusty", "reach", "hitch"), f"a robot of kind {robot['kind']}")
+    require(robot.get("trailer") is None, "a car is proven without its trailer")
+    sides_of_world = [(low, high, False) for low, high in zip(*bounds)]
+    turns = len(robot["lengths"]) if is_arm(robot) else int(robot["kind"] == "hitch")
+    ranges = ([] if is_arm(robot) else sides_of_world) + [(-PI, PI, True)] * turns
     lists = [barrier["axes"], barrier["start"], barrier["goal"]] + [cell[key] for cell in cells for key in ("middle", "half")]
     require(all(len(numbers) == len(ranges) for numbers in lists), "another number of coordinates than the robot has")
-    names = [axis["name"] for axis in barrier["axes"]]
-    require(names == (["th1", "th2"] if is_arm else ["x", "y"]), "the axes are not the robot's, in their order")
-    require(all(axis["wraps"] is is_arm for axis in barrier["axes"]), "angles wrap, and lengths do not")
+    names = [f"th{k + 1}" for k in range(turns)] if is_arm(robot) else ["x", "y", "theta"][: 2 + turns]
+    require([axis["name"] for axis in barrier["axes"]] == names, "the axes are not the robot's, in their order")
+    require(all(axis["wraps"] is wraps for axis, (_, _, wraps) in zip(barrier["axes"], ranges)), "angles wrap, and lengths do not")
     positive = [half for cell in cells for half in cell["half"]] + [high - low for low, high, _ in ranges] + robot.get("lengths", [])
+    positive += [robot["body"][key] for key in ("length", "width")] if robot["kind"] == "hitch" else []
     require(all(x > 0 for x in positive), "a side, a link or the world has no length")
-    require(robot["radius"] >= 0 and all(s["core"] and s["radius"] >= 0 for s in barrier["world"]["obstacles"]), "a shape is none")
+    require(robot.get("radius", 0) >= 0 and all(s["core"] and s["radius"] >= 0 for s in barrier["world"]["obstacles"]), "a shape is none")
     require(cells, "no cell: nothing is proven")
     its_parts = parts(robot)
     spare = min(blocked(barrier, cell, its_parts) for cell in cells)

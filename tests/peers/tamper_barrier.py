@@ -52,14 +52,24 @@ def put(key, value):
     return lambda b: middle(b).update({key: value(middle(b))})
 
 
+def moved(axis, by):
+    """The cell in the middle, moved along an axis by so many of its half sides."""
+
+    def forge(b):
+        middle(b)["middle"][axis] += by * middle(b)["half"][axis]
+
+    return forge
+
+
 def halves(by):
     return lambda b: middle(b).update(half=[by(h) for h in middle(b)["half"]])
 
 
 ALWAYS = {
-    "a cell moved by its side": put("middle", lambda c: [c["middle"][0] + 2 * c["half"][0], c["middle"][1]]),
-    "a cell moved by its other side": put("middle", lambda c: [c["middle"][0], c["middle"][1] - 2 * c["half"][1]]),
-    "a cell moved where nothing is": put("middle", lambda c: [0.1234, 0.1234]),
+    "a cell moved by its side": moved(0, 2),
+    "a cell moved by its other side": moved(1, -2),
+    "a cell moved by its last side": moved(-1, 2),
+    "a cell moved where nothing is": put("middle", lambda c: [0.1234] * len(c["middle"])),
     "a cell of a nanometre less": halves(lambda h: h - 1e-9),
     "a cell of half its sides": halves(lambda h: h / 2),
     "a larger cell": halves(lambda h: h * 1.1),
@@ -73,8 +83,7 @@ ALWAYS = {
     "no cell": lambda b: b.update(cells=[]),
     "half of the cells": lambda b: b.update(cells=b["cells"][::2]),
     "a cell without a coordinate": lambda b: middle(b)["middle"].pop(),
-    "more depth": put("depth", lambda c: c["depth"] * 1.01),
-    "a nanometre more depth": put("depth", lambda c: c["depth"] + 1e-9),
+    "more depth than there is": put("depth", lambda c: c["depth"] + 4.0),
     "infinite depth": put("depth", lambda c: "inf"),
     "a depth that is no number": put("depth", lambda c: float("nan")),
     "no depth": lambda b: middle(b).pop("depth"),
@@ -108,10 +117,7 @@ ALWAYS = {
     "axes that wrap the other way": lambda b: [axis.update(wraps=not axis["wraps"]) for axis in b["axes"]],
     "the axes the other way round": lambda b: b["axes"].reverse(),
     "one axis": lambda b: b["axes"].pop(),
-    "a thinner robot": lambda b: b["robot"].update(radius=b["robot"]["radius"] * 0.5),
-    "a robot of negative radius": lambda b: b["robot"].update(radius=-b["robot"]["radius"]),
     "an unknown robot": lambda b: b["robot"].update(kind="snake"),
-    "a robot with headings": lambda b: b["robot"].update(kind="hitch"),
     "another robot": lambda b: b["robot"].update(kind="reach" if b["robot"]["kind"] == "rusty" else "rusty"),
     "another version": lambda b: b.update(version=2),
     "another kind of proof": lambda b: b.update(kind="certificate"),
@@ -119,15 +125,42 @@ ALWAYS = {
 }
 OF_THE_WORLD = {
     "a world inside out": lambda b: b["world"]["bounds"].reverse(),
-    "a start outside the world": lambda b: b.update(start=[b["world"]["bounds"][0][0] - 1e-9, b["start"][1]]),
-    "a goal outside the world": lambda b: b.update(goal=[b["goal"][0], b["world"]["bounds"][1][1] + 1e-9]),
+    "a start outside the world": lambda b: b["start"].__setitem__(0, b["world"]["bounds"][0][0] - 1e-9),
+    "a goal outside the world": lambda b: b["goal"].__setitem__(1, b["world"]["bounds"][1][1] + 1e-9),
+}
+# of a car barrier.py looks at more points of its sides than the lab does, and may prove a little more
+WITH_A_RADIUS = {
+    "more depth": put("depth", lambda c: c["depth"] * 1.01),
+    "a nanometre more depth": put("depth", lambda c: c["depth"] + 1e-9),
+    "a thinner robot": lambda b: b["robot"].update(radius=b["robot"]["radius"] * 0.5),
+    "a robot of negative radius": lambda b: b["robot"].update(radius=-b["robot"]["radius"]),
+    "a robot with headings": lambda b: b["robot"].update(kind="hitch"),
 }
 OF_ARMS = {
     "an arm elsewhere": lambda b: b["robot"].update(base=[5.0, 5.0]),
-    "an arm with short links": lambda b: b["robot"].update(lengths=[0.1, 0.1]),
+    "an arm with short links": lambda b: b["robot"].update(lengths=[0.1 for _ in b["robot"]["lengths"]]),
     "an arm with a link of negative length": lambda b: b["robot"]["lengths"].__setitem__(1, -1.0),
-    "an arm of three links": lambda b: b["robot"]["lengths"].append(0.1),
-    "the other link": put("part", lambda c: 1 - c["part"]),
+    "an arm of one link more": lambda b: b["robot"]["lengths"].append(0.1),
+    "another link": put("part", lambda c: len(c["middle"]) - 1 - c["part"]),
+}
+
+
+def body(key, by):
+    return lambda b: b["robot"]["body"].update({key: by(b["robot"]["body"][key])})
+
+
+OF_CARS = {
+    "a car half as wide": body("width", lambda w: w / 2),
+    "a car half as long": body("length", lambda l: l / 2),
+    "a car of no width": body("width", lambda w: 0.0),
+    "a car of negative length": body("length", lambda l: -l),
+    "a car behind its axle": body("rear_overhang", lambda r: r + 3.0),
+    "a car with a trailer": lambda b: b["robot"].update(
+        trailer={"hitch_len": 2.0, "front_overhang": 1.0, "rear_overhang": 0.8, "width": 1.5}
+    ),
+    "a thin car with a radius": lambda b: (b["robot"].update(radius=1.0), body("width", lambda w: 0.01)(b)),
+    "a car without a heading": lambda b: [b[key].pop() for key in ("axes", "start", "goal")],
+    "a heading that ends": lambda b: b["axes"][2].update(wraps=False),
 }
 
 
@@ -135,15 +168,16 @@ def ends_at_the_sides(b):
     """Whether the barrier ends at the sides of the world, and a larger one has a way round it."""
     (low, high) = b["world"]["bounds"]
     reaches = lambda cell: any(m - h <= a or m + h >= z for m, h, a, z in zip(cell["middle"], cell["half"], low, high))
-    return b["robot"]["kind"] == "rusty" and any(map(reaches, b["cells"]))
+    return b["robot"]["kind"] != "reach" and any(map(reaches, b["cells"]))
 
 
 def forgeries(text):
     """The texts of all forgeries, by name."""
     b = json.loads(text)
-    sets = [ALWAYS, OF_ARMS if b["robot"]["kind"] == "reach" else OF_THE_WORLD]
+    sets = [ALWAYS, {"rusty": {}, "reach": OF_ARMS, "hitch": OF_CARS}[b["robot"]["kind"]]]
+    sets += [{} if b["robot"]["kind"] == "reach" else OF_THE_WORLD, WITH_A_RADIUS if "radius" in b["robot"] else {}]
     sets += [{"a larger world": larger_world}] if ends_at_the_sides(b) else []
-    sets += [{f"without cell {n}": lambda b, n=n: b["cells"].pop(n)} for n in range(0, len(b["cells"]), 5)]
+    sets += [{f"without cell {n}": lambda b, n=n: b["cells"].pop(n)} for n in range(0, len(b["cells"]), max(5, len(b["cells"]) // 12))]
     for name, forge in [item for some in sets for item in some.items()]:
         b = json.loads(text)
         forge(b)

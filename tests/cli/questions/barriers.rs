@@ -31,12 +31,24 @@ fn court(passage: f64) -> String {
     )
 }
 
+/// A yard with a wall across it, which has a gap of this width in metres.
+fn yard(gap: f64) -> String {
+    format!(
+        r#"World(version: 1, name: "yard", bounds: (min: (0, 0), max: (20, 8)), obstacles: [
+        (name: "south", shape: Box(min: (9.5, 0), max: (10.5, {}))),
+        (name: "north", shape: Box(min: (9.5, {}), max: (10.5, 8)))])"#,
+        4.0 - 0.5 * gap,
+        4.0 + 0.5 * gap
+    )
+}
+
 fn plan(folder: &Path, world: &str, arguments: &[&str]) -> Run {
     fs::write(folder.join("world.ron"), world).unwrap();
     run_in(folder, &[&["plan", "--world", "world.ron"], arguments].concat())
 }
 
 const OUT_OF_THE_COURT: [&str; 6] = ["--robot", "rusty", "--from", "0.5,0.5", "--to", "-2,-1"];
+const THROUGH_THE_YARD: [&str; 6] = ["--robot", "hitch", "--from", "3,4,0", "--to", "14,4,0"];
 const PAST_THE_POSTS: [&str; 6] = ["--robot", "reach", "--from", "0,0", "--to", "3.1,0.2"];
 
 fn numbers(value: &Value) -> Vec<f64> {
@@ -112,6 +124,28 @@ fn barriers_are_accepted_by_a_peer_which_refuses_forgeries() {
 }
 
 #[test]
+fn barriers_of_an_arm_of_three_links_and_of_a_car_without_its_trailer_are_accepted_by_a_peer() {
+    let folder = tempfile::tempdir().unwrap();
+    let towing = ["--robot", "hitch", "--from", "5,4,0,0", "--to", "14,4,0,0"];
+    let arm = ["--robot", "reach3", "--from", "0,0.4,-0.2", "--to", "3.1,0.2,0.3"];
+    let car = barrier(folder.path(), &yard(0.5), &towing);
+    fs::rename(folder.path().join("proof.json"), folder.path().join("car.json")).unwrap();
+    let axis = |name: &str, wraps: bool| value!({"name": name, "wraps": wraps});
+    assert_eq!(car["axes"], value!([axis("x", false), axis("y", false), axis("theta", true)]));
+    assert_eq!((&car["start"], &car["goal"]), (&value!([5.0, 4.0, 0.0]), &value!([14.0, 4.0, 0.0])));
+    let body = &car["robot"]["body"];
+    assert_eq!((&car["robot"]["trailer"], &body["length"], &body["width"]), (&Value::Null, &value!(3.9), &value!(1.7)));
+    let thick = POSTS.replace("0.5), radius: 0.1", "0.3), radius: 0.15");
+    let reach = barrier(folder.path(), &thick, &arm);
+    assert_eq!(reach["axes"], value!([axis("th1", true), axis("th2", true), axis("th3", true)]));
+    let files = ["car.json", "proof.json"].map(|name| folder.path().join(name)).to_vec();
+    let Some(output) = peer("barrier.py", &files) else { return };
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success(), "{said}{}", String::from_utf8_lossy(&output.stderr));
+    assert!(said.lines().count() == 2 && said.lines().all(|line| line.contains(": no path is proven by ")), "{said}");
+}
+
+#[test]
 fn the_answer_is_a_path_none_or_undecided() {
     let folder = tempfile::tempdir().unwrap();
     let by_cells = ["--planner", "cell-decomposition", "--json"];
@@ -169,8 +203,10 @@ fn where_nothing_is_proven_no_barrier_is_written() {
         let error = plan(at, &court(0.0), &[&to_proof[..], more].concat()).failed(2);
         assert!(error.contains(reason) && error.lines().count() >= 2, "{error}");
     }
-    let car = ["--robot", "hitch", "--from", "0.5,0.5,0", "--to", "0.5,0.6,0", "--barrier", "proof.json"];
-    assert!(plan(at, &court(0.0), &car).failed(2).contains("which no car can drive"));
+    // cells that join the ends give a car no path, and no barrier
+    let ended = plan(at, &yard(3.0), &[&THROUGH_THE_YARD[..], &["--barrier", "proof.json"]].concat());
+    assert_eq!(ended.code, Some(4), "{}", ended.err);
+    assert!(ended.err.contains("cells proven free join the start to the goal"), "{}", ended.err);
     assert_eq!(fs::read_to_string(at.join("proof.json")).unwrap(), "an older file");
 }
 
@@ -199,10 +235,8 @@ fn what_to_move_is_the_least_that_lets_a_path_through() {
     let expected = [(&door, &value!("gate")), (&wall, &value!("behind")), (&wall, &value!("between"))];
     assert_eq!((ended.code, &names[..], &blockers["least"]), (Some(7), &expected[..], &value!(true)), "{blockers}");
     assert!(blockers["tried"].as_u64().unwrap() >= 4 && blockers.get("doors").is_none(), "{blockers}");
-    // where there is a path nothing is said of it; a car has no cells
+    // where there is a path nothing is said of it
     assert!(!ask(&SHUT.replace("(2, 4)]", "(2, 2)]"), &["--json"]).done().contains("blockers"));
-    let car = ["--robot", "hitch", "--from", "0.5,0.5,0", "--to", "0.5,0.6,0", "--what-blocks"];
-    assert!(plan(folder.path(), SHUT, &car).failed(2).contains("--planner"));
     for (more, reason) in [
         (["--planner", "rrt-connect"], "--what-blocks: rrt-connect proves no barrier"),
         (["--checker", "parry"], "--what-blocks rests on proofs, and parry proves nothing"),

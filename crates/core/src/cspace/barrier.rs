@@ -59,7 +59,11 @@ impl Barrier {
     ///
     /// It is a least cut of the map's leaves, joined where they share a side: ways through a side pass between two
     /// leaves, and a way through a corner touches the leaves beside it too.
-    pub fn between(map: &CellMap, start: &AnyConfiguration, goal: &AnyConfiguration) -> Option<Barrier> {
+    pub fn between<const N: usize>(
+        map: &CellMap<N>,
+        start: &AnyConfiguration,
+        goal: &AnyConfiguration,
+    ) -> Option<Barrier> {
         let slice = map.slice();
         let [start, goal] = [start, goal].map(|q| q.in_chart());
         if !slice.held().is_empty() || !slice.holds(&start) || !slice.holds(&goal) {
@@ -70,21 +74,20 @@ impl Barrier {
         if from.is_empty() || to.is_empty() {
             return None;
         }
-        let mut can_cut = vec![false; map.node_count()];
-        map.numbered_leaves().for_each(|(number, cell)| can_cut[number] = cell.state == CellState::Blocked);
-        let cut = vertex_cut(&neighbours(map), &can_cut, &from, &to)?;
+        let cut = least_cut(map, &from, &to)?;
         let cells: Option<Vec<BarrierCell>> = cut.iter().map(|number| proven(map, map.cell(*number))).collect();
         let [start, goal] = ends.map(Coordinates::from);
         Some(Barrier { axes: axes(slice), start, goal, cells: cells? })
     }
 }
 
-fn axes(slice: &Slice) -> Vec<BarrierAxis> {
-    slice.names().into_iter().map(|name| BarrierAxis { name, wraps: slice.wraps() }).collect()
+fn axes<const N: usize>(slice: &Slice<N>) -> Vec<BarrierAxis> {
+    let axis = |(i, name)| BarrierAxis { name, wraps: slice.wraps_along(i) };
+    slice.names().into_iter().enumerate().map(axis).collect()
 }
 
 /// A blocked cell with its proof.
-fn proven(map: &CellMap, cell: &Cell) -> Option<BarrierCell> {
+fn proven<const N: usize>(map: &CellMap<N>, cell: &Cell<N>) -> Option<BarrierCell> {
     let (middle, half) = map.place(cell);
     match map.slice().prove(middle, half) {
         CellProof::InContact(blocking) => {
@@ -95,32 +98,76 @@ fn proven(map: &CellMap, cell: &Cell) -> Option<BarrierCell> {
 }
 
 /// The leaves that hold a point: several where it lies on a side.
-fn leaves_at(map: &CellMap, p: [f64; 2]) -> Vec<usize> {
+fn leaves_at<const N: usize>(map: &CellMap<N>, p: [f64; N]) -> Vec<usize> {
     let slice = map.slice();
-    let holds = |(_, cell): &(usize, &Cell)| {
+    let holds = |(_, cell): &(usize, &Cell<N>)| {
         let (middle, half) = map.place(cell);
-        let off = [0, 1].map(|i| if slice.wraps() { wrap(p[i] - middle[i]) } else { p[i] - middle[i] });
-        off.iter().zip(slice.grown(half)).all(|(off, half)| off.abs() <= half)
+        let off = |i: usize| if slice.wraps_along(i) { wrap(p[i] - middle[i]) } else { p[i] - middle[i] };
+        slice.grown(half).iter().enumerate().all(|(i, half)| off(i).abs() <= *half)
     };
     map.numbered_leaves().filter(holds).map(|(number, _)| number).collect()
 }
 
-/// The leaves that share a side with each leaf, by their numbers; over the edges of a torus too.
-fn neighbours(map: &CellMap) -> Vec<Vec<usize>> {
-    let side = 1_u32 << map.finest();
-    let mut beside = vec![Vec::new(); map.node_count()];
-    // the column or the row after a range; none beyond the last, where that is an edge
-    let after = |end: u32| if end < side { Some(end) } else { map.slice().wraps().then_some(0) };
-    for (number, cell) in map.numbered_leaves() {
-        let [columns, rows] = map.span(cell);
-        let right = after(columns[1]).map(|column| [[column, column + 1], rows]);
-        let upper = after(rows[1]).map(|row| [columns, [row, row + 1]]);
-        for ranges in [right, upper].into_iter().flatten() {
-            for other in map.leaves_within(ranges) {
-                beside[number].push(other);
-                beside[other].push(number);
+/// The least cut between some leaves and others, by the numbers of its leaves. What can be reached from either side
+/// past all blocked leaves is one vertex of the graph that is cut.
+fn least_cut<const N: usize>(map: &CellMap<N>, from: &[usize], to: &[usize]) -> Option<Vec<usize>> {
+    const START: usize = 0;
+    const GOAL: usize = 1;
+    let is_blocked = |number: usize| map.cell(number).state == CellState::Blocked;
+    if from.iter().chain(to).any(|end| is_blocked(*end)) {
+        return None;
+    }
+    let mut vertices = vec![None; map.node_count()];
+    for (vertex, ends) in [(START, from), (GOAL, to)] {
+        let mut open = ends.to_vec();
+        while let Some(number) = open.pop() {
+            match vertices[number] {
+                Some(other) if other != vertex => return None,
+                Some(_) => {}
+                None => {
+                    vertices[number] = Some(vertex);
+                    open.extend(beside(map, number).into_iter().filter(|other| !is_blocked(*other)));
+                }
             }
         }
     }
-    beside
+    let mut leaves = vec![None; 2];
+    for (number, _) in map.numbered_leaves() {
+        if vertices[number].is_none() {
+            vertices[number] = Some(leaves.len());
+            leaves.push(Some(number));
+        }
+    }
+    let mut joined = vec![Vec::new(); leaves.len()];
+    for (vertex, leaf) in leaves.iter().enumerate() {
+        let Some(number) = leaf else { continue };
+        for other in beside(map, *number).into_iter().filter_map(|other| vertices[other]) {
+            joined[vertex].push(other);
+            if leaves[other].is_none() {
+                joined[other].push(vertex);
+            }
+        }
+    }
+    let can_cut: Vec<bool> = leaves.iter().map(|leaf| leaf.is_some_and(is_blocked)).collect();
+    let cut = vertex_cut(&joined, &can_cut, &[START], &[GOAL])?;
+    Some(cut.into_iter().filter_map(|vertex| leaves[vertex]).collect())
+}
+
+/// The leaves that share a side with a leaf, by their numbers; over the ends of an angle too.
+fn beside<const N: usize>(map: &CellMap<N>, number: usize) -> Vec<usize> {
+    let (side, span) = (1_u32 << map.finest(), map.span(map.cell(number)));
+    let mut found = Vec::new();
+    for i in 0..N {
+        let wraps = map.slice().wraps_along(i);
+        let [first, end] = span[i];
+        // none beyond the last, where that is an edge
+        let before = if first > 0 { Some(first - 1) } else { wraps.then_some(side - 1) };
+        let after = if end < side { Some(end) } else { wraps.then_some(0) };
+        for slab in [before, after].into_iter().flatten() {
+            let mut ranges = span;
+            ranges[i] = [slab, slab + 1];
+            found.extend(map.leaves_within(ranges));
+        }
+    }
+    found
 }

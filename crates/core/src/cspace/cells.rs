@@ -7,15 +7,13 @@ use super::{CellState, Slice};
 /// The finest level: its cells have a 4096th of the slice's sides.
 pub const MAX_LEVEL: u32 = 12;
 
-/// A cell of a level, which has `2^level` columns and rows. Both are counted from the least coordinates.
+/// A cell of a level, which has `2^level` cells along each side of the slice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Cell {
+pub struct Cell<const N: usize = 2> {
     /// How often the slice's sides were halved.
     pub level: u32,
-    /// The column.
-    pub column: u32,
-    /// The row.
-    pub row: u32,
+    /// Its number along each side, from the least coordinate: in a plane the column and the row.
+    pub index: [u32; N],
     /// What is known of it.
     pub state: CellState,
 }
@@ -37,38 +35,40 @@ pub struct ProofProgress {
 
 /// A node of the tree of cells; a leaf has no children.
 #[derive(Clone, Debug)]
-struct TreeNode {
-    cell: Cell,
-    /// The first of four children, which stand side by side.
+struct TreeNode<const N: usize> {
+    cell: Cell<N>,
+    /// The first of the children, four in a plane and eight in space, which stand side by side.
     children: Option<u32>,
 }
 
-/// The cells of a slice: a tree in which a cell that is not proven is cut in four, coarse cells before fine ones.
+/// The cells of a slice: a tree in which a cell that is not proven is cut in halves along each side, coarse cells
+/// before fine ones.
 ///
 /// What is known depends only on the number of cells judged, not on the number of calls.
 #[derive(Clone, Debug)]
-pub struct CellMap {
-    slice: Slice,
+pub struct CellMap<const N: usize = 2> {
+    slice: Slice<N>,
     finest: u32,
-    nodes: Vec<TreeNode>,
+    nodes: Vec<TreeNode<N>>,
     waiting: VecDeque<u32>,
     judged: u64,
-    /// The proven area in cells of the finest level.
+    /// What is proven, in cells of the finest level.
     free: u64,
     blocked: u64,
 }
 
-impl CellMap {
+impl<const N: usize> CellMap<N> {
     /// Creates a map in which nothing is known. Its finest cells have a `2^finest`th of the slice's sides; `finest` is
     /// limited to [`MAX_LEVEL`].
-    pub fn new(slice: Slice, finest: u32) -> Self {
+    pub fn new(slice: Slice<N>, finest: u32) -> Self {
         let finest = std::cmp::min(finest, MAX_LEVEL);
-        let root = TreeNode { cell: Cell { level: 0, column: 0, row: 0, state: CellState::Unknown }, children: None };
+        let cell = Cell { level: 0, index: [0; N], state: CellState::Unknown };
+        let root = TreeNode { cell, children: None };
         CellMap { slice, finest, nodes: vec![root], waiting: VecDeque::from([0]), judged: 0, free: 0, blocked: 0 }
     }
 
     /// The slice.
-    pub fn slice(&self) -> &Slice {
+    pub fn slice(&self) -> &Slice<N> {
         &self.slice
     }
 
@@ -92,16 +92,16 @@ impl CellMap {
         let state = self.slice.judge(centre, half);
         self.nodes[number].cell.state = state;
         self.judged += 1;
-        let area = 1_u64 << (2 * (self.finest - cell.level));
+        let size = 1_u64 << (N as u32 * (self.finest - cell.level));
         match state {
-            CellState::Free => self.free += area,
-            CellState::Blocked => self.blocked += area,
+            CellState::Free => self.free += size,
+            CellState::Blocked => self.blocked += size,
             CellState::Unknown if cell.level < self.finest => {
                 let first = self.nodes.len() as u32;
                 self.nodes[number].children = Some(first);
-                for k in 0..4 {
-                    let (column, row) = (2 * cell.column + k % 2, 2 * cell.row + k / 2);
-                    let cell = Cell { level: cell.level + 1, column, row, state: CellState::Unknown };
+                for k in 0..1 << N {
+                    let index = std::array::from_fn(|i| 2 * cell.index[i] + (k >> i & 1));
+                    let cell = Cell { level: cell.level + 1, index, state: CellState::Unknown };
                     self.nodes.push(TreeNode { cell, children: None });
                     self.waiting.push_back(first + k);
                 }
@@ -111,47 +111,50 @@ impl CellMap {
     }
 
     /// The middle of a cell and half its sides.
-    pub fn place(&self, cell: &Cell) -> ([f64; 2], [f64; 2]) {
+    pub fn place(&self, cell: &Cell<N>) -> ([f64; N], [f64; N]) {
         let (_, whole) = self.slice.whole();
         let scale = 1.0 / f64::from(1_u32 << cell.level);
         let half = whole.map(|h| h * scale);
         let min = self.slice.min();
-        let index = [cell.column, cell.row].map(f64::from);
-        ([0, 1].map(|i| min[i] + (2.0 * index[i] + 1.0) * half[i]), half)
+        let index = cell.index.map(f64::from);
+        (std::array::from_fn(|i| min[i] + (2.0 * index[i] + 1.0) * half[i]), half)
     }
 
     /// How far the proofs have come.
     pub fn progress(&self) -> ProofProgress {
-        let all = (1_u64 << (2 * self.finest)) as f64;
+        let count = 1_u64 << (N as u32 * self.finest);
+        let all = count as f64;
         let (free, blocked) = (self.free as f64 / all, self.blocked as f64 / all);
-        let unknown = ((1_u64 << (2 * self.finest)) - self.free - self.blocked) as f64 / all;
+        let unknown = (count - self.free - self.blocked) as f64 / all;
         ProofProgress { judged: self.judged, free, blocked, unknown, done: self.waiting.is_empty() }
     }
 
-    /// The number of cells that there are to judge in all, estimated: a line between free and blocked crosses half of
-    /// the four parts of a cell. It is exact when no cell is left.
+    /// The number of cells that there are to judge in all, estimated: what lies between free and blocked crosses half
+    /// of the parts of a cell. It is exact when no cell is left.
     pub fn expected(&self) -> u64 {
-        let below = |number: &u32| (2_u64 << (self.finest - self.nodes[*number as usize].cell.level)) - 1;
+        let half = 1_u64 << (N - 1);
+        let levels = |number: &u32| self.finest - self.nodes[*number as usize].cell.level;
+        let below = |number: &u32| (0..levels(number)).fold(1, |cells, _| 1 + half * cells);
         self.judged + self.waiting.iter().map(below).sum::<u64>()
     }
 
     /// The state of the cell in which a point of the slice lies; unknown beyond the slice.
-    pub fn state(&self, p: [f64; 2]) -> CellState {
+    pub fn state(&self, p: [f64; N]) -> CellState {
         let (min, max) = (self.slice.min(), self.slice.max());
-        if !(0..2).all(|i| p[i] >= min[i] && p[i] <= max[i]) {
+        if !(0..N).all(|i| p[i] >= min[i] && p[i] <= max[i]) {
             return CellState::Unknown;
         }
         let mut node = &self.nodes[0];
         while let Some(first) = node.children {
             let (centre, _) = self.place(&node.cell);
-            let (right, upper) = (u32::from(p[0] >= centre[0]), u32::from(p[1] >= centre[1]));
-            node = &self.nodes[(first + right + 2 * upper) as usize];
+            let child: u32 = (0..N).map(|i| u32::from(p[i] >= centre[i]) << i).sum();
+            node = &self.nodes[(first + child) as usize];
         }
         node.cell.state
     }
 
     /// The cells that are not cut further, coarse before fine.
-    pub fn leaves(&self) -> impl Iterator<Item = &Cell> {
+    pub fn leaves(&self) -> impl Iterator<Item = &Cell<N>> {
         self.nodes.iter().filter(|node| node.children.is_none()).map(|node| &node.cell)
     }
 
@@ -161,50 +164,65 @@ impl CellMap {
     }
 
     /// The cell of a node of the tree.
-    pub(super) fn cell(&self, number: usize) -> &Cell {
+    pub(super) fn cell(&self, number: usize) -> &Cell<N> {
         &self.nodes[number].cell
     }
 
     /// As [`leaves`](Self::leaves), with the numbers of their nodes.
-    pub(super) fn numbered_leaves(&self) -> impl Iterator<Item = (usize, &Cell)> {
+    pub(super) fn numbered_leaves(&self) -> impl Iterator<Item = (usize, &Cell<N>)> {
         let leaves = self.nodes.iter().enumerate().filter(|(_, node)| node.children.is_none());
         leaves.map(|(number, node)| (number, &node.cell))
     }
 
-    /// The columns and the rows of the finest level that a cell covers, each range without its last.
-    pub(super) fn span(&self, cell: &Cell) -> [[u32; 2]; 2] {
+    /// What a cell covers of the finest level along each side, without the last.
+    pub(super) fn span(&self, cell: &Cell<N>) -> [[u32; 2]; N] {
         let scale = 1_u32 << (self.finest - cell.level);
-        [cell.column, cell.row].map(|index| [index * scale, (index + 1) * scale])
+        cell.index.map(|index| [index * scale, (index + 1) * scale])
     }
 
-    /// The numbers of the leaves that cover any of these columns and rows of the finest level.
-    pub(super) fn leaves_within(&self, ranges: [[u32; 2]; 2]) -> Vec<usize> {
+    /// The numbers of the leaves that cover any of these cells of the finest level, given along each side.
+    pub(super) fn leaves_within(&self, ranges: [[u32; 2]; N]) -> Vec<usize> {
         let (mut found, mut open) = (Vec::new(), vec![0]);
         while let Some(number) = open.pop() {
             let node = &self.nodes[number];
             let span = self.span(&node.cell);
-            if (0..2).any(|i| span[i][1] <= ranges[i][0] || ranges[i][1] <= span[i][0]) {
+            if (0..N).any(|i| span[i][1] <= ranges[i][0] || ranges[i][1] <= span[i][0]) {
                 continue;
             }
             match node.children {
-                Some(first) => open.extend((0..4).map(|k| (first + k) as usize)),
+                Some(first) => open.extend((0..1 << N).map(|k| (first + k) as usize)),
                 None => found.push(number),
             }
         }
         found
     }
 
-    /// The states as an image of `2^level` by `2^level` cells, row after row from the least coordinates. `level` is
-    /// limited to [`finest`](Self::finest). A cell of the image that the map has cut further is unknown.
+    /// The level up to which all cells are judged; `None` before any is.
+    pub fn judged_level(&self) -> Option<u32> {
+        match self.waiting.front() {
+            Some(number) => self.nodes[*number as usize].cell.level.checked_sub(1),
+            None => Some(self.finest),
+        }
+    }
+
+    /// The states as an image of `2^level` cells along each side, row after row from the least coordinates, and in
+    /// space layer after layer. `level` is limited to [`finest`](Self::finest). A cell of the image that the map has
+    /// cut further is unknown.
     pub fn raster(&self, level: u32) -> Vec<CellState> {
         let level = std::cmp::min(level, self.finest);
         let side = 1_usize << level;
-        let mut image = vec![CellState::Unknown; side * side];
-        for Cell { level: own, column, row, state } in self.leaves().filter(|leaf| leaf.level <= level) {
+        let mut image = vec![CellState::Unknown; side.pow(N as u32)];
+        for Cell { level: own, index, state } in self.leaves().filter(|leaf| leaf.level <= level) {
             let scale = 1_usize << (level - own);
-            let (left, low) = (*column as usize * scale, *row as usize * scale);
-            for row in image.chunks_exact_mut(side).skip(low).take(scale) {
-                row[left..left + scale].fill(*state);
+            let first = index.map(|i| i as usize * scale);
+            // a row along the first side for each place along the others
+            for row in 0..scale.pow(N as u32 - 1) {
+                let (mut start, mut stride, mut rest) = (first[0], side, row);
+                for low in &first[1..] {
+                    start += (low + rest % scale) * stride;
+                    (stride, rest) = (stride * side, rest / scale);
+                }
+                image[start..start + scale].fill(*state);
             }
         }
         image
@@ -212,187 +230,4 @@ impl CellMap {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::f64::consts::PI;
-
-    use super::*;
-    use crate::configuration::AnyConfiguration;
-    use crate::cspace::tests::arm;
-    use crate::robots::AnyRobot;
-
-    fn map(thick: bool, finest: u32) -> CellMap {
-        let (checker, q) = arm(thick);
-        CellMap::new(Slice::through(&checker, &q).unwrap(), finest)
-    }
-
-    /// Compares every sample of a dense raster with what is proven of its cell. Returns the number of samples in proven
-    /// cells.
-    fn compare(map: &CellMap, side: u32) -> usize {
-        let slice = map.slice();
-        let mut proven = 0;
-        for k in 0..side * side {
-            // off every grid line, but on the slice's least edges as well
-            let part = |i: u32| if i == 0 { 0.0 } else { (f64::from(i) + 0.317) / f64::from(side) };
-            let (u, v) = (part(k % side), part(k / side));
-            let p = [
-                slice.min()[0] + u * (slice.max()[0] - slice.min()[0]),
-                slice.min()[1] + v * (slice.max()[1] - slice.min()[1]),
-            ];
-            let is_free = slice.checker().is_free(&slice.at(p));
-            match map.state(p) {
-                CellState::Free => assert!(is_free, "{p:?} is in a cell proven free"),
-                CellState::Blocked => assert!(!is_free, "{p:?} is in a cell proven blocked"),
-                CellState::Unknown => continue,
-            }
-            proven += 1;
-        }
-        proven
-    }
-
-    #[test]
-    fn dense_samples_never_contradict_a_proven_cell() {
-        for thick in [false, true] {
-            let mut map = map(thick, 7);
-            assert_eq!(compare(&map, 8), 0, "nothing is known at first");
-            while map.refine(500) {
-                compare(&map, 40);
-            }
-            let proven = compare(&map, 160);
-            let unknown = map.progress().unknown;
-            let share = 1.0 - proven as f64 / 25600.0;
-            assert!((share - unknown).abs() < 0.02, "{unknown} of the area, {share} of the samples");
-            assert!(unknown < 0.35, "{unknown}");
-        }
-    }
-
-    #[test]
-    fn the_other_robots_cells_hold_too() {
-        for (kind, start, world, most) in [
-            ("rusty", &[1.0, 1.0, 0.0][..], crate::collision::Scene::apartment(), 0.25),
-            ("hitch", &[6.5, 2.5, 0.4], crate::collision::Scene::lot(), 0.35),
-            ("hitch", &[6.5, 2.5, 0.4, -0.3], crate::collision::Scene::lot(), 0.4),
-            ("reach3", &[0.3, 0.2, 0.1], crate::collision::Scene::workbench(), 0.3),
-        ] {
-            let (robot, q) = AnyRobot::of_kind(kind, start).unwrap();
-            let checker = crate::collision::Checker::new(world, robot);
-            let mut map = CellMap::new(Slice::through(&checker, &q).unwrap(), 7);
-            map.refine(u32::MAX);
-            compare(&map, 120);
-            let progress = map.progress();
-            assert!(progress.done && progress.unknown < most, "{kind} {progress:?}");
-            assert!(progress.free > 0.0 && progress.blocked > 0.0, "{kind} {progress:?}");
-        }
-    }
-
-    #[test]
-    fn rusty_sees_the_obstacles_grown_by_its_radius() {
-        let (robot, q) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
-        let pillar = crate::geometry::Shape::Disc { radius: 0.5 };
-        let bounds = crate::geometry::Aabb { min: [-2.0, -2.0].into(), max: [2.0, 2.0].into() };
-        let scene = crate::collision::Scene::empty(bounds).with_obstacle("the pillar", pillar);
-        let mut map = CellMap::new(Slice::through(&crate::collision::Checker::new(scene, robot), &q).unwrap(), 8);
-        map.refine(u32::MAX);
-        let grown = 0.5 + 0.11; // the pillar's radius and Rusty's
-        let cell = 4.0 / 256.0 * 1.5;
-        for k in 0..64 {
-            let (s, c) = crate::num::sin_cos(f64::from(k) * PI / 32.0);
-            assert_eq!(map.state([(grown - cell) * c, (grown - cell) * s]), CellState::Blocked, "{k}");
-            assert_eq!(map.state([(grown + cell) * c, (grown + cell) * s]), CellState::Free, "{k}");
-        }
-    }
-
-    #[test]
-    fn the_number_of_cells_is_estimated_within_a_factor_of_three_from_half_of_the_levels_on() {
-        for thick in [false, true] {
-            let mut whole = map(thick, 9);
-            whole.refine(u32::MAX);
-            let all = whole.progress().judged;
-            assert_eq!(whole.expected(), all, "nothing is left to estimate");
-            let mut map = map(thick, 9);
-            while map.refine(100) {
-                let ProofProgress { judged, .. } = map.progress();
-                assert!(map.expected() > judged, "cells are left");
-                if judged > 1000 {
-                    assert!((all / 3..=3 * all).contains(&map.expected()), "{} of {all} at {judged}", map.expected());
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn refining_in_pieces_is_refining_at_once() {
-        let (mut pieces, mut whole) = (map(false, 6), map(false, 6));
-        for budget in [1, 7, 100, 0, 392] {
-            pieces.refine(budget);
-        }
-        whole.refine(500);
-        assert_eq!(pieces.progress(), whole.progress());
-        assert_eq!(pieces.raster(6), whole.raster(6));
-        assert!(whole.refine(1) && !whole.refine(u32::MAX) && whole.progress().done);
-    }
-
-    #[test]
-    fn an_image_shows_what_the_cells_say() {
-        let mut map = map(false, 6);
-        map.refine(900);
-        for level in [3, 6, 9] {
-            let image = map.raster(level);
-            let side = 1_usize << std::cmp::min(level, 6);
-            assert_eq!(image.len(), side * side);
-            for (k, state) in image.iter().enumerate() {
-                let at = |i: usize| PI * (2.0 * (i as f64 + 0.5) / side as f64 - 1.0);
-                let truth = map.state([at(k % side), at(k / side)]);
-                assert!(*state == truth || (*state == CellState::Unknown && level < 6), "{k}: {state:?} {truth:?}");
-            }
-        }
-        let areas: f64 = map.leaves().map(|leaf| 1.0 / f64::from(1_u32 << (2 * leaf.level))).sum();
-        assert_eq!(areas, 1.0, "the leaves tile the slice");
-    }
-
-    #[test]
-    fn edges_of_the_square_are_one() {
-        let slice = map(false, 3).slice().clone();
-        assert!(slice.wraps());
-        assert_eq!(slice.at([-PI, 0.3]), slice.at([PI, 0.3]));
-        assert!((slice.distance([3.0, 0.0], [-3.0, 0.0]) - (2.0 * PI - 6.0)).abs() < 1e-12);
-        assert!(slice.holds(&AnyConfiguration::T2(crate::configuration::T2::new(1.0, 2.0))));
-        let (car, q) = AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.4]).unwrap();
-        let slice = Slice::through(&crate::collision::Checker::new(crate::collision::Scene::lot(), car), &q).unwrap();
-        assert!(slice.holds(&q.with(0, 3.0)) && !slice.holds(&q.with(2, 0.5)), "another heading, another slice");
-    }
-    #[test]
-    fn neighbours_overlap_in_real_numbers_and_cover_the_whole_slice() {
-        // sides that no power of two divides, so that places are rounded
-        let (robot, q) = AnyRobot::of_kind("rusty", &[1.0, 1.0, 0.0]).unwrap();
-        let bounds = crate::geometry::Aabb { min: [-0.1, 0.7].into(), max: [1234.7, 8.3].into() };
-        let scene = crate::collision::Scene::empty(bounds);
-        let rover = Slice::through(&crate::collision::Checker::new(scene, robot), &q).unwrap();
-        for slice in [rover, map(false, 3).slice().clone()] {
-            let map = CellMap::new(slice, MAX_LEVEL);
-            // in units of 2^-60, to within one
-            let exact = |x: f64| {
-                (x * f64::from(1_u32 << 30)) as i128 * (1 << 30)
-                    + ((x * f64::from(1_u32 << 30)).fract() * f64::from(1_u32 << 30)) as i128
-            };
-            for level in [1, 7, MAX_LEVEL] {
-                let ends = |index: u32| {
-                    let cell = Cell { level, column: index, row: index, state: CellState::Unknown };
-                    let (middle, half) = map.place(&cell);
-                    let half = map.slice().grown(half);
-                    [0, 1].map(|i| [exact(middle[i]) - exact(half[i]), exact(middle[i]) + exact(half[i])])
-                };
-                let last = (1 << level) - 1;
-                for i in 0..2 {
-                    for index in 0..last {
-                        assert!(ends(index)[i][1] > ends(index + 1)[i][0], "level {level}, {index}");
-                    }
-                    // a turn is 2.5e-16 more than twice the double nearest to half a turn: 283 units
-                    let beyond = if map.slice().wraps() { 283 } else { 0 };
-                    let [first, end] = [ends(0)[i][0], ends(last)[i][1]];
-                    let [min, max] = [map.slice().min()[i], map.slice().max()[i]].map(exact);
-                    assert!(first + beyond < min && end > max + beyond, "level {level}");
-                }
-            }
-        }
-    }
-}
+mod tests;

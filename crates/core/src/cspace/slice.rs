@@ -1,10 +1,10 @@
-//! `Slice`, a plane of configurations, and the proof about a cell of it.
+//! `Slice`, a plane of configurations or a whole space of three coordinates, and the proof about a cell of it.
 
 use std::f64::consts::PI;
 
 use crate::collision::{Checker, Collision, ObstacleId, Overlap};
-use crate::configuration::{AnyConfiguration, Configuration};
-use crate::geometry::Footprint;
+use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, Tn};
+use crate::geometry::{Footprint, Pose2};
 use crate::num::{greater, hypot, lesser, ulp, wrap};
 use crate::picture::in_signs;
 use crate::robots::{AnyRobot, ConfigurationError, Robot};
@@ -59,23 +59,24 @@ pub enum CellState {
     Unknown,
 }
 
-/// Two coordinates of a robot's configurations, the others held: a plane through its configuration space, or a torus.
+/// Some coordinates of a robot's configurations, the others held: two, a plane through its configuration space or a
+/// torus; or three, a whole space.
 ///
 /// - An arm with two links: both angles, from -pi to pi, with opposite edges identified. With three links: the last two
 ///   angles, the first held.
 /// - Rusty: its position, in the world's bounds. It is a disc, so its heading does not matter.
 /// - Hitch: its rear axle's position, in the world's bounds, with the headings held.
 #[derive(Clone, Debug)]
-pub struct Slice {
+pub struct Slice<const N: usize = 2> {
     checker: Checker<AnyRobot>,
     base: AnyConfiguration,
-    axes: [usize; 2],
-    min: [f64; 2],
-    max: [f64; 2],
+    axes: [usize; N],
+    min: [f64; N],
+    max: [f64; N],
 }
 
 impl Slice {
-    /// The slice through `q`.
+    /// The plane through `q`.
     ///
     /// # Errors
     /// [`ConfigurationError`] when `q` is not a configuration of the checker's robot.
@@ -91,43 +92,9 @@ impl Slice {
         Ok(Slice { checker: checker.clone(), base: *q, axes, min, max })
     }
 
-    /// The robot in its scene.
-    pub fn checker(&self) -> &Checker<AnyRobot> {
-        &self.checker
-    }
-
-    /// The numbers of the two coordinates that vary.
-    pub fn axes(&self) -> [usize; 2] {
-        self.axes
-    }
-
-    /// The least coordinates.
-    pub fn min(&self) -> [f64; 2] {
-        self.min
-    }
-
-    /// The greatest coordinates.
-    pub fn max(&self) -> [f64; 2] {
-        self.max
-    }
-
     /// Whether opposite edges are identified, so that the slice is a torus.
     pub fn wraps(&self) -> bool {
         self.base.is_angle(self.axes[0])
-    }
-
-    /// The names of the two coordinates: `th1`, `x`.
-    pub fn names(&self) -> [String; 2] {
-        let names = self.base.coordinate_names();
-        self.axes.map(|axis| names.get(axis).cloned().unwrap_or_default())
-    }
-
-    /// The coordinates that are held, by number and name: none for an arm with two links, or a disc, whose heading does
-    /// not matter.
-    pub fn held(&self) -> Vec<(usize, String)> {
-        let names = self.base.coordinate_names().into_iter().enumerate();
-        let matters = |i: &usize| !self.axes.contains(i) && !matches!(self.base, AnyConfiguration::Pose(_));
-        names.filter(|(i, _)| matters(i)).map(|(i, name)| (i, name.to_string())).collect()
     }
 
     /// Describes the plane in a line: its two coordinates, and what is held.
@@ -147,13 +114,102 @@ impl Slice {
         }
     }
 
+    /// The distance of two points of the slice, metres or radians: the length of their difference, angles taken the
+    /// short way.
+    pub fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let [x, y] = if self.wraps() { d.map(wrap) } else { d };
+        hypot(x, y)
+    }
+
+    /// The point of a cell that is nearest to `p`, and how far that is.
+    pub(super) fn nearest_in(&self, p: [f64; 2], centre: [f64; 2], half: [f64; 2]) -> ([f64; 2], f64) {
+        let nearest = [0, 1].map(|i| {
+            let off = if self.wraps() { wrap(p[i] - centre[i]) } else { p[i] - centre[i] };
+            centre[i] + off.clamp(-half[i], half[i])
+        });
+        (nearest, self.distance(p, nearest))
+    }
+
+    /// The shorter of two sides.
+    pub(super) fn least_side(&self) -> f64 {
+        lesser(self.max[0] - self.min[0], self.max[1] - self.min[1])
+    }
+}
+
+impl Slice<3> {
+    /// The whole space of a robot of three coordinates: an arm with three links; and a car, whose trailer is left out
+    /// where it has one, since what the car alone can't pass it can't pass with a trailer. `None` for other robots.
+    pub fn space(checker: &Checker<AnyRobot>) -> Option<Self> {
+        let scene = checker.scene();
+        let bounds = scene.bounds();
+        let (robot, base) = match *checker.robot() {
+            robot @ AnyRobot::Reach3(_) => (robot, AnyConfiguration::T3(Tn([0.0; 3]))),
+            AnyRobot::Hitch(car) => {
+                let alone = HitchCfg { body: Pose2::new(0.0, 0.0, 0.0), trailer: None };
+                (AnyRobot::Hitch(car.without_trailer()), AnyConfiguration::Hitch(alone))
+            }
+            _ => return None,
+        };
+        let side = |i: usize, length: f64, angle: f64| if base.is_angle(i) { angle } else { length };
+        let min = [side(0, bounds.min.x, -PI), side(1, bounds.min.y, -PI), -PI];
+        let max = [side(0, bounds.max.x, PI), side(1, bounds.max.y, PI), PI];
+        Some(Slice { checker: Checker::new(scene.clone(), robot), base, axes: [0, 1, 2], min, max })
+    }
+}
+
+impl<const N: usize> Slice<N> {
+    /// The robot in its scene.
+    pub fn checker(&self) -> &Checker<AnyRobot> {
+        &self.checker
+    }
+
+    /// The numbers of the coordinates that vary.
+    pub fn axes(&self) -> [usize; N] {
+        self.axes
+    }
+
+    /// The least coordinates.
+    pub fn min(&self) -> [f64; N] {
+        self.min
+    }
+
+    /// The greatest coordinates.
+    pub fn max(&self) -> [f64; N] {
+        self.max
+    }
+
+    /// Whether a coordinate of the slice is an angle, whose ends are one.
+    pub fn wraps_along(&self, i: usize) -> bool {
+        self.base.is_angle(self.axes[i])
+    }
+
+    /// The unit of a coordinate of the slice: `m` or `rad`.
+    pub fn unit(&self, i: usize) -> &'static str {
+        if self.wraps_along(i) { "rad" } else { "m" }
+    }
+
+    /// The names of the coordinates: `th1`, `x`.
+    pub fn names(&self) -> [String; N] {
+        let names = self.base.coordinate_names();
+        self.axes.map(|axis| names.get(axis).cloned().unwrap_or_default())
+    }
+
+    /// The coordinates that are held, by number and name: none of a whole space, and none of a disc, whose heading
+    /// does not matter.
+    pub fn held(&self) -> Vec<(usize, String)> {
+        let names = self.base.coordinate_names().into_iter().enumerate();
+        let matters = |i: &usize| !self.axes.contains(i) && !matches!(self.base, AnyConfiguration::Pose(_));
+        names.filter(|(i, _)| matters(i)).map(|(i, name)| (i, name.to_string())).collect()
+    }
+
     /// The configuration at a point of the slice.
-    pub fn at(&self, p: [f64; 2]) -> AnyConfiguration {
-        self.base.with(self.axes[0], p[0]).with(self.axes[1], p[1])
+    pub fn at(&self, p: [f64; N]) -> AnyConfiguration {
+        self.base.with_point(self.axes, p)
     }
 
     /// The projection of a configuration onto the slice.
-    pub fn point(&self, q: &AnyConfiguration) -> [f64; 2] {
+    pub fn point(&self, q: &AnyConfiguration) -> [f64; N] {
         let c = q.coordinates();
         self.axes.map(|axis| c.get(axis).copied().unwrap_or(0.0))
     }
@@ -164,16 +220,8 @@ impl Slice {
         same && self.checker.robot().check(q).is_ok()
     }
 
-    /// The distance of two points of the slice, metres or radians: the length of their difference, angles taken the
-    /// short way.
-    pub fn distance(&self, a: [f64; 2], b: [f64; 2]) -> f64 {
-        let d = [b[0] - a[0], b[1] - a[1]];
-        let [x, y] = if self.wraps() { d.map(wrap) } else { d };
-        hypot(x, y)
-    }
-
     /// Judges a cell: all points within `half` of `centre` in each coordinate. [`prove`](Self::prove) says how.
-    pub fn judge(&self, centre: [f64; 2], half: [f64; 2]) -> CellState {
+    pub fn judge(&self, centre: [f64; N], half: [f64; N]) -> CellState {
         match self.prove(centre, half) {
             CellProof::Free => CellState::Free,
             CellProof::OutsideLimits | CellProof::InContact(_) => CellState::Blocked,
@@ -187,15 +235,15 @@ impl Slice {
     /// of a part moves farther from there than the robot's motion bound to the cell's corner, the greatest bound in the
     /// cell. A clearance of every part above its bound proves the cell free, a depth of one part above its bound proves
     /// it blocked.
-    pub fn prove(&self, centre: [f64; 2], half: [f64; 2]) -> CellProof {
+    pub fn prove(&self, centre: [f64; N], half: [f64; N]) -> CellProof {
         let (robot, scene) = (self.checker.robot(), self.checker.scene());
         let q = self.at(centre);
         if !robot.is_within_limits(&q) {
-            // only a car has limits; they are about its headings, which a slice holds
+            // only a car with a trailer has limits; they are about its headings, which a slice holds
             return CellProof::OutsideLimits;
         }
         // the rates depend on the difference alone; it is taken from 0, so that it is not wrapped
-        let Ok(rates) = robot.edge_rates(&self.at([0.0; 2]), &self.at(self.grown(half))) else {
+        let Ok(rates) = robot.edge_rates(&self.at([0.0; N]), &self.at(self.grown(half))) else {
             return CellProof::None;
         };
         let footprint = robot.footprint(&q);
@@ -217,34 +265,20 @@ impl Slice {
 
     /// The half sides of the cell that a proof is about: longer by some roundings of the slice's greatest coordinate.
     /// The places of cells are rounded, and pi is; grown so, neighbours overlap, over the edge of a torus too.
-    pub fn grown(&self, half: [f64; 2]) -> [f64; 2] {
-        [0, 1].map(|i| half[i] + OVERLAP_ULPS * ulp(greater(self.min[i].abs(), self.max[i].abs())))
-    }
-
-    /// The point of a cell that is nearest to `p`, and how far that is.
-    pub(super) fn nearest_in(&self, p: [f64; 2], centre: [f64; 2], half: [f64; 2]) -> ([f64; 2], f64) {
-        let nearest = [0, 1].map(|i| {
-            let off = if self.wraps() { wrap(p[i] - centre[i]) } else { p[i] - centre[i] };
-            centre[i] + off.clamp(-half[i], half[i])
-        });
-        (nearest, self.distance(p, nearest))
+    pub fn grown(&self, half: [f64; N]) -> [f64; N] {
+        std::array::from_fn(|i| half[i] + OVERLAP_ULPS * ulp(greater(self.min[i].abs(), self.max[i].abs())))
     }
 
     /// The middle of the slice, and half its sides.
-    pub(super) fn whole(&self) -> ([f64; 2], [f64; 2]) {
-        let half = [0, 1].map(|i| 0.5 * (self.max[i] - self.min[i]));
-        ([0, 1].map(|i| self.min[i] + half[i]), half)
-    }
-
-    /// The shorter of two sides.
-    pub(super) fn least_side(&self) -> f64 {
-        lesser(self.max[0] - self.min[0], self.max[1] - self.min[1])
+    pub(super) fn whole(&self) -> ([f64; N], [f64; N]) {
+        let half: [f64; N] = std::array::from_fn(|i| 0.5 * (self.max[i] - self.min[i]));
+        (std::array::from_fn(|i| self.min[i] + half[i]), half)
     }
 }
 
 impl AnyConfiguration {
-    /// This configuration with two coordinates replaced.
-    fn with_point(&self, axes: [usize; 2], p: [f64; 2]) -> AnyConfiguration {
-        self.with(axes[0], p[0]).with(axes[1], p[1])
+    /// This configuration with some coordinates replaced.
+    fn with_point<const N: usize>(&self, axes: [usize; N], p: [f64; N]) -> AnyConfiguration {
+        axes.into_iter().zip(p).fold(*self, |q, (axis, x)| q.with(axis, x))
     }
 }

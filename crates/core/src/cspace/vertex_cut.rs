@@ -1,9 +1,12 @@
-//! The least set of a graph's vertices that parts some of them from others, by augmenting paths.
+//! The least set of a graph's vertices that parts some of them from others, by a greatest flow.
 
 use std::collections::VecDeque;
 
 /// The room of an arc that no flow fills.
 const ENDLESS: u32 = u32::MAX / 2;
+
+/// The depth of what no way reaches.
+const NEVER: u32 = u32::MAX;
 
 /// The vertices that can be reached from some through those that `passes` lets in. The first are reached in any case.
 pub(super) fn flooded(beside: &[Vec<usize>], from: &[usize], passes: impl Fn(usize) -> bool) -> Vec<bool> {
@@ -26,9 +29,9 @@ pub(super) fn flooded(beside: &[Vec<usize>], from: &[usize], passes: impl Fn(usi
 /// vertices alone that can't be cut, or an end can be.
 ///
 /// Each vertex lets one unit of a flow through where it can be cut, and any number where it can't (Menger, 1927; Ford
-/// and Fulkerson, 1956). When no path augments the flow, the vertices that the last search entered and could not leave
-/// are the cut. The set that it can enter is the same for every greatest flow, so the result does not depend on the
-/// paths taken.
+/// and Fulkerson, 1956), which grows by all shortest ways at once (Dinitz, 1970). When no way is left, the vertices
+/// that the last search entered and could not leave are the cut. The set that it can enter is the same for every
+/// greatest flow, so the result does not depend on the ways taken.
 pub(super) fn vertex_cut(beside: &[Vec<usize>], can_cut: &[bool], from: &[usize], to: &[usize]) -> Option<Vec<usize>> {
     if from.iter().chain(to).any(|end| can_cut[*end]) {
         return None;
@@ -39,15 +42,14 @@ pub(super) fn vertex_cut(beside: &[Vec<usize>], can_cut: &[bool], from: &[usize]
     }
     let mut network = FlowNetwork::of(beside, can_cut);
     loop {
-        let arrivals = network.search(from);
-        match to.iter().copied().find(|end| arrivals[entry(*end)] != FlowArrival::Never) {
-            Some(end) => network.augment(&arrivals, entry(end)),
-            None => {
-                let is_entered = |side: usize| arrivals[side] != FlowArrival::Never;
-                let is_cut = |vertex: &usize| is_entered(entry(*vertex)) && !is_entered(exit(*vertex));
-                return Some((0..beside.len()).filter(is_cut).collect());
-            }
+        let depths = network.depths(from);
+        let is_entered = |side: usize| depths[side] != NEVER;
+        if to.iter().any(|end| is_entered(entry(*end))) {
+            network.fill(&depths, from, to);
+            continue;
         }
+        let is_cut = |vertex: &usize| is_entered(entry(*vertex)) && !is_entered(exit(*vertex));
+        return Some((0..beside.len()).filter(is_cut).collect());
     }
 }
 
@@ -58,15 +60,6 @@ fn entry(vertex: usize) -> usize {
 
 fn exit(vertex: usize) -> usize {
     2 * vertex + 1
-}
-
-/// How a search came to a side of a vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum FlowArrival {
-    Never,
-    Start,
-    /// Along the arc of this number.
-    By(usize),
 }
 
 /// An arc that a flow may take; the arc back has the number that differs in the last bit.
@@ -103,29 +96,55 @@ impl FlowNetwork {
         }
     }
 
-    /// How each side is reached along arcs that have room, over as few of them as can be.
-    fn search(&self, from: &[usize]) -> Vec<FlowArrival> {
-        let mut arrivals = vec![FlowArrival::Never; self.leaving.len()];
-        from.iter().for_each(|vertex| arrivals[entry(*vertex)] = FlowArrival::Start);
+    /// Over how many arcs that have room each side is reached, at least.
+    fn depths(&self, from: &[usize]) -> Vec<u32> {
+        let mut depths = vec![NEVER; self.leaving.len()];
+        from.iter().for_each(|vertex| depths[entry(*vertex)] = 0);
         let mut open: VecDeque<usize> = from.iter().copied().map(entry).collect();
         while let Some(side) = open.pop_front() {
             for &number in &self.leaving[side] {
                 let FlowArc { to, room } = self.arcs[number];
-                if room > 0 && arrivals[to] == FlowArrival::Never {
-                    arrivals[to] = FlowArrival::By(number);
+                if room > 0 && depths[to] == NEVER {
+                    depths[to] = depths[side] + 1;
                     open.push_back(to);
                 }
             }
         }
-        arrivals
+        depths
     }
 
-    /// Sends one more unit along the way on which a search came to a side.
-    fn augment(&mut self, arrivals: &[FlowArrival], mut side: usize) {
-        while let FlowArrival::By(number) = arrivals[side] {
-            self.arcs[number].room -= 1;
-            self.arcs[number ^ 1].room += 1;
-            side = self.arcs[number ^ 1].to;
+    /// Sends a unit along shortest ways, until each of them has an arc without room.
+    fn fill(&mut self, depths: &[u32], from: &[usize], to: &[usize]) {
+        let mut is_end = vec![false; self.leaving.len()];
+        to.iter().for_each(|vertex| is_end[entry(*vertex)] = true);
+        // of the arcs that leave a side those before lead nowhere any more
+        let mut next = vec![0; self.leaving.len()];
+        for start in from.iter().copied().map(entry) {
+            let (mut way, mut side) = (Vec::<usize>::new(), start);
+            loop {
+                if is_end[side] {
+                    for number in way.drain(..) {
+                        self.arcs[number].room -= 1;
+                        self.arcs[number ^ 1].room += 1;
+                    }
+                    side = start;
+                    continue;
+                }
+                if let Some(&number) = self.leaving[side].get(next[side]) {
+                    let FlowArc { to, room } = self.arcs[number];
+                    if room > 0 && depths[to] == depths[side] + 1 {
+                        way.push(number);
+                        side = to;
+                    } else {
+                        next[side] += 1;
+                    }
+                } else if let Some(number) = way.pop() {
+                    side = self.arcs[number ^ 1].to;
+                    next[side] += 1;
+                } else {
+                    break;
+                }
+            }
         }
     }
 }

@@ -46,7 +46,7 @@ pub use goal::{Ball, TipDisc};
 pub use growth::{Growth, Node, Rejection};
 pub use metric::{Metric, MetricError};
 pub use nearest::{Nearest, Neighbour};
-pub use no_path::NoPath;
+pub use no_path::{CellSides, NoPath};
 #[doc(hidden)]
 pub use path::is_same;
 pub use path::{CertifiedPath, Leg, LinePath, PathError, UnprovenPath};

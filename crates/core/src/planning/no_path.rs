@@ -1,5 +1,7 @@
 //! `NoPath`, why a planner returned no path.
 
+use std::fmt;
+
 use super::{Bound, Effort, PathError};
 use crate::collision::ProblemError;
 
@@ -26,16 +28,18 @@ pub enum NoPath {
     },
     /// The planner has cut the space into cells, and the finest decide nothing: neither do those proven free join the
     /// start to the goal, nor do those proven blocked part them. There may be a path, through gaps of about that size.
-    #[error(
-        "undecided: cells of {} by {} {unit} are proven neither free nor blocked",
-        (sides[0] * 1e6).round_ties_even() / 1e6,
-        (sides[1] * 1e6).round_ties_even() / 1e6
-    )]
+    #[error("undecided: cells of {sides} are proven neither free nor blocked")]
     Undecided {
         /// The sides of the undecided cells.
-        sides: [f64; 2],
-        /// The unit of the sides: `m` or `rad`.
-        unit: &'static str,
+        sides: CellSides,
+    },
+    /// Cells that are proven free join the start to the goal, but the robot is a car, which drives no straight lines:
+    /// nothing parts the two, and whether the car can drive between them, or park where it would have to, they do not
+    /// say.
+    #[error("undecided: {cells} cells proven free join the start to the goal, but do not say how a car drives there")]
+    JoinedByCells {
+        /// The number of the cells from the one end to the other.
+        cells: usize,
     },
     /// No path leads to the goal, whatever the planner: configurations that are proven to be in contact part it from
     /// the start, within the scene's bounds. A [`Barrier`](crate::cspace::Barrier) is those that do, to be checked.
@@ -72,4 +76,24 @@ pub enum NoPath {
     /// [`solve`](super::solve).
     #[error("the planner's path is refused: {0}")]
     Refused(#[from] PathError),
+}
+
+/// The sides of a cell, each with its unit: `m` or `rad`. They are shown to six decimals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellSides(pub Vec<(f64, &'static str)>);
+
+impl fmt::Display for CellSides {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut sides = self.0.iter().peekable();
+        while let Some((side, unit)) = sides.next() {
+            write!(f, "{}", (side * 1e6).round_ties_even() / 1e6)?;
+            match sides.peek() {
+                // said once of sides of one unit
+                Some((_, other)) if other == unit => write!(f, " by ")?,
+                Some(_) => write!(f, " {unit} by ")?,
+                None => write!(f, " {unit}")?,
+            }
+        }
+        Ok(())
+    }
 }

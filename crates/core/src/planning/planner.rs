@@ -3,9 +3,9 @@
 use super::{
     Bounds, CertifiedPath, Effort, Growth, NoPath, PathError, Progress, Search, Sensed, UnprovenPath, is_same,
 };
-use crate::collision::Problem;
-use crate::cspace::CellMap;
-use crate::robots::{ChartLine, Motion, Robot, stays_within};
+use crate::collision::{Checker, Problem};
+use crate::cspace::{Barrier, CellMap};
+use crate::robots::{AnyRobot, ChartLine, Motion, Robot, stays_within};
 
 /// A planner: it works on one problem, an iteration at a time, and shows what it has grown.
 ///
@@ -61,6 +61,12 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> + 'stati
 
     /// The cells of the configuration space that it has judged, to be drawn; `None` for a planner without.
     fn cells(&self) -> Option<&CellMap> {
+        None
+    }
+
+    /// The blocked cells that part the start from the goal, with the robot and the scene that they are of: of a car
+    /// with a trailer the car alone. `None` where the planner has none, or has not proven that there is no path.
+    fn barrier(&self) -> Option<(Barrier, &Checker<AnyRobot>)> {
         None
     }
 

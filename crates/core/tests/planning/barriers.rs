@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{Barrier, CellMap, Slice};
-use motion_lab_core::planning::CellDecomposition;
+use motion_lab_core::planning::{CellDecomposition, CellSides};
 use motion_lab_core::robots::AnyRobot;
 
 use super::*;
@@ -286,7 +286,7 @@ fn angles_beyond_half_a_turn_are_where_they_are() {
 }
 
 #[test]
-fn a_car_has_no_barrier_since_it_may_turn() {
+fn a_plane_of_a_cars_space_has_no_barrier_since_it_may_turn() {
     let (car, q) = AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.0]).unwrap();
     let mut map = CellMap::new(Slice::through(&Checker::new(Scene::lot(), car), &q).unwrap(), 7);
     map.refine(u32::MAX);
@@ -301,7 +301,7 @@ fn what_is_undecided_says_how_small_its_cells_are() {
     let scene = block(lower, "upper", [3.9, 1.101], [4.1, 3.0]);
     let (end, barrier) = decided(scene, rover(0.1), [at(1.0, 1.0), at(7.0, 1.0)]);
     let reason = end.unwrap_err();
-    assert_eq!(reason, NoPath::Undecided { sides: [0.0625, 0.015625], unit: "m" });
+    assert_eq!(reason, NoPath::Undecided { sides: CellSides(vec![(0.0625, "m"), (0.015625, "m")]) });
     assert_eq!(reason.to_string(), "undecided: cells of 0.0625 by 0.015625 m are proven neither free nor blocked");
     assert!(barrier.is_none());
 }

@@ -130,11 +130,11 @@ fn cells_prove_that_a_goal_is_out_of_reach_or_find_the_way() {
     let posts = [("up", 0.5), ("down", -0.5)].into_iter().fold(Scene::empty(bounds), post);
     let refused = solve(&mut CellDecomposition::new(reaching(posts, [0.0, 0.0], [3.1, 0.0])), &Bounds::default());
     assert!(matches!(refused, Err(NoPath::Unreachable { .. })), "{refused:?}");
-    // a car's slice is not its space
+    // a car's cells give no path, not even where it stays
     let (car, q) = AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.0]).unwrap();
     let parking = Problem::try_new(Checker::new(Scene::lot(), car), q, q, Seed(1)).unwrap();
     let refused = solve(&mut CellDecomposition::new(parking), &Bounds::default());
-    assert!(matches!(refused, Err(NoPath::Unsuited(_))));
+    assert!(matches!(refused, Err(NoPath::JoinedByCells { cells: 1 })), "{refused:?}");
 }
 
 #[test]

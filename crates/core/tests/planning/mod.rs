@@ -9,6 +9,7 @@ mod own;
 mod paths;
 mod planner;
 mod shortest;
+mod spaces;
 mod tangents;
 mod tools;
 

@@ -58,10 +58,16 @@ pub fn plan(sheet: &PlanSheet<'_>) -> Captured {
             readout.push(format!("length {length:.3} {}, clearance {clearance} m", unit(&task.robot)));
             format!("{by}: a path whose clearance is proven to be at least {clearance} m.")
         }
-        PlanOutcome::None => {
-            readout.push("no path".to_owned());
-            format!("{by}: no path was found.")
-        }
+        PlanOutcome::None => match &drawn.barrier {
+            Some(barrier) => {
+                readout.push(format!("no path: {} cells proven blocked part the two", barrier.cells.len()));
+                format!("{by}: there is no path. The cells that part the start from the goal are proven blocked.")
+            }
+            None => {
+                readout.push("no path".to_owned());
+                format!("{by}: no path was found.")
+            }
+        },
         PlanOutcome::Growing => {
             readout.push("no path yet".to_owned());
             format!("{by}: no path so far.")

@@ -4,15 +4,15 @@ use crate::run::Script;
 use crate::simulation::{PlayError, PlayStage, PlayablePath, PlayedPath};
 use motion_lab_core::collision::{Checker, Collision, EdgeVerdict, ProvenStep};
 use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration};
-use motion_lab_core::cspace::CellMap;
+use motion_lab_core::cspace::{Barrier, CellMap};
 use motion_lab_core::planning::{
     Bounds, CertifiedPath, Effort, LinePath, Metric, NoPath, PathError, Planner, Progress, UnprovenPath, accepted,
     called_free, solve, solve_unproven,
 };
 use motion_lab_core::random::{Seed, Stream};
-use motion_lab_core::robots::{ChartLine, Hitch, HitchArc, Motion, Robot};
+use motion_lab_core::robots::{AnyRobot, ChartLine, Hitch, HitchArc, Motion, Robot};
 
-use super::drawn::{Drawn, Rejected};
+use super::drawn::{Drawn, DrawnBarrier, Rejected};
 
 /// The number of straight pieces in which a driven motion is drawn.
 const DRAWN: u32 = 6;
@@ -138,6 +138,10 @@ pub trait PlanAttempt: Send {
 
     /// The cells of the configuration space that the planner has judged, if it judges any.
     fn cells(&self) -> Option<&CellMap>;
+
+    /// The blocked cells that part the start from the goal, if the planner has such, with the robot and the scene that
+    /// they are of: of a car with a trailer the car alone.
+    fn barrier(&self) -> Option<(Barrier, &Checker<AnyRobot>)>;
 
     /// What the planner has done.
     fn effort(&self) -> Effort;
@@ -314,11 +318,16 @@ where
             corners: corners.map(Into::into).collect(),
             rejected: if self.motions().next().is_none() { self.rejected() } else { self.hit() },
             sensed: self.planner.sensed(),
+            barrier: self.planner.barrier().map(|(barrier, checker)| DrawnBarrier::new(barrier, checker)),
         }
     }
 
     fn cells(&self) -> Option<&CellMap> {
         self.planner.cells()
+    }
+
+    fn barrier(&self) -> Option<(Barrier, &Checker<AnyRobot>)> {
+        self.planner.barrier()
     }
 
     fn effort(&self) -> Effort {

@@ -39,7 +39,7 @@ impl Making for PlannerName {
             PlannerName::Bug1 => Box::new(Bug1::try_new(&problem)?),
             PlannerName::Bug2 => Box::new(Bug2::try_new(&problem)?),
             PlannerName::CellDecomposition => {
-                return Err(NoPath::Unsuited("its cells are those of a plane or a torus"));
+                return Err(NoPath::Unsuited("it judges the cells of a robot of any kind"));
             }
             PlannerName::Bug1Sensor => return Err(NoPath::Unsuited("it walks by the range sensor of a rover")),
             PlannerName::HybridAStar => return Err(NoPath::Unsuited("it plans for a car only")),

@@ -34,7 +34,7 @@ mod task;
 pub use attempt::{FileLeg, LegControl, LegMotion, PathLengths, PlanAttempt, ShortenedPath, Trial};
 pub use bug1_sensor::{Bug1Sensor, Bug1Walk, WalkEnd};
 pub use checker_name::CheckerName;
-pub use drawn::{Drawn, Rejected};
+pub use drawn::{Drawn, DrawnBarrier, Rejected};
 pub use judged::{JudgedPath, MAX_JUDGED};
 pub use named::PlannerName;
 pub use own::{LinePlanner, MadePlanner, OwnPlanner, PlannerMaker};

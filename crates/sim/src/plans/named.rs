@@ -47,8 +47,8 @@ enum Plans {
     /// All that can go along straight lines of their charts.
     Lines,
     Discs,
-    /// Those whose space has two dimensions.
-    Planes,
+    /// All of whose space cells can be judged.
+    Cells,
     Cars,
     /// Those that a planner of a program's own is made for.
     Own(&'static OwnPlanner),
@@ -105,7 +105,7 @@ impl PlannerName {
     ];
 
     const fn about(self) -> About {
-        use Plans::{Cars, Discs, Lines, Planes};
+        use Plans::{Cars, Cells, Discs, Lines};
         match self {
             PlannerName::RrtConnect => {
                 row("rrt-connect", "RRT-Connect", Lines, "Two trees that grow toward each other")
@@ -161,8 +161,8 @@ impl PlannerName {
             PlannerName::CellDecomposition => row(
                 "cell-decomposition",
                 "Cell decomposition",
-                Planes,
-                "Cells proven free or blocked, for a rover and an arm of two links; it may prove that there is no path",
+                Cells,
+                "Cells proven free or blocked: it may prove that there is no path; it gives none to a car",
             ),
             PlannerName::HybridAStar => {
                 row("hybrid-a-star", "Hybrid A*", Cars, "A search over what a car can drive, with a trailer or without")
@@ -204,10 +204,10 @@ impl PlannerName {
             (Plans::Own(_), _) => Err("it is not made for this robot"),
             (Plans::Cars, AnyRobot::Hitch(_)) => Ok(()),
             (Plans::Cars, _) => Err("it plans for a car only"),
+            (Plans::Cells, _) => Ok(()),
             (_, AnyRobot::Hitch(_)) => Err("it plans straight lines, which no car can drive"),
             (Plans::Discs, AnyRobot::Reach(_) | AnyRobot::Reach3(_)) => Err("it plans for discs in the plane"),
-            (Plans::Planes, AnyRobot::Reach3(_)) => Err("its cells are those of a plane or a torus"),
-            (Plans::Lines | Plans::Discs | Plans::Planes, _) => Ok(()),
+            (Plans::Lines | Plans::Discs, _) => Ok(()),
         }
     }
 
@@ -216,7 +216,7 @@ impl PlannerName {
         match self.about().plans {
             Plans::Cars => true,
             Plans::Own(own) => own.car.is_some() && own.disc.is_none() && own.arm.is_none() && own.arm3.is_none(),
-            Plans::Lines | Plans::Discs | Plans::Planes => false,
+            Plans::Lines | Plans::Discs | Plans::Cells => false,
         }
     }
 
@@ -225,7 +225,7 @@ impl PlannerName {
         match self.about().plans {
             Plans::Cars => 20_000,
             Plans::Own(own) => own.iterations,
-            Plans::Lines | Plans::Discs | Plans::Planes => 100_000,
+            Plans::Lines | Plans::Discs | Plans::Cells => 100_000,
         }
     }
 }

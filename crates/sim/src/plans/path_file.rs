@@ -343,7 +343,7 @@ impl PathFile {
                 edges.push(chart_line(ends.0, ends.1));
             }
         }
-        Ok(Drawn { ends, edges, path, corners, rejected: None, sensed: None })
+        Ok(Drawn { edges, path, corners, ..Drawn::of_ends(ends) })
     }
 }
 

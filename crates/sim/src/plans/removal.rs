@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use motion_lab_core::collision::{ProblemError, Scene};
-use motion_lab_core::cspace::Barrier;
 use motion_lab_core::planning::{Bounds, NoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::{ObstacleKind, World};
@@ -82,12 +81,12 @@ impl Task {
     ///
     /// A barrier that stands after a removal stands before it too, so a set that helps has a thing of every barrier.
     /// All such sets of up to three things are tried ([`Removal::is_least`]). A larger set is one of which nothing can
-    /// stay. Paths and barriers are those of [`PlannerName::CellDecomposition`], for the same
-    /// tube and clearance.
+    /// stay. Paths and barriers are those of [`PlannerName::CellDecomposition`], for the same tube and clearance; a
+    /// car's paths are those of [`PlannerName::HybridAStar`], and its barriers those of the car without its trailer.
     ///
     /// # Errors
-    /// [`NoRemoval`]: the robot is none of a disc and an arm of two links, an end is wrong whatever is taken away,
-    /// something stays undecided, or too many sets would have to be tried.
+    /// [`NoRemoval`]: an end is wrong whatever is taken away, something stays undecided, or too many sets would have to
+    /// be tried.
     pub fn what_blocks(&self) -> Result<Removal, NoRemoval> {
         Trials::new(|gone| self.without(gone).decide()).least()
     }
@@ -111,13 +110,22 @@ impl Task {
         match attempt.solve(&Bounds::of_iterations(by_cells.iterations())) {
             Ok(()) => Decision::Path,
             Err(reason @ NoPath::Unreachable { .. }) => {
-                let cells = attempt.cells();
-                let barrier = cells.and_then(|map| Some((map, Barrier::between(map, &self.start, &self.goal)?)));
-                let Some((map, barrier)) = barrier else { return Decision::Undecided(reason) };
-                let scene = map.slice().checker().scene();
+                let Some((barrier, checker)) = attempt.barrier() else { return Decision::Undecided(reason) };
+                let scene = checker.scene();
                 let names = barrier.cells.iter().filter_map(|cell| scene.obstacle_name(cell.blocking.obstacle));
                 Decision::Blocked(names.filter_map(|name| blocker(&self.world, name)).collect())
             }
+            Err(NoPath::JoinedByCells { .. }) => self.drive(),
+            Err(reason) => Decision::Undecided(reason),
+        }
+    }
+
+    /// Whether a car finds a path where nothing is proven to be in its way.
+    fn drive(&self) -> Decision {
+        let driver = PlannerName::default_for(&self.robot);
+        let attempt = self.attempt(driver, Seed(0));
+        match attempt.and_then(|mut attempt| attempt.solve(&Bounds::of_iterations(driver.iterations()))) {
+            Ok(()) => Decision::Path,
             Err(reason) => Decision::Undecided(reason),
         }
     }

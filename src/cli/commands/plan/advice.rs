@@ -14,6 +14,7 @@ pub(super) fn next(reason: &NoPath) -> &'static str {
         NoPath::Exhausted { .. } => "There may be one: allow more --iterations, or try another --seed or --planner.",
         NoPath::NoneInGraph { .. }
         | NoPath::Undecided { .. }
+        | NoPath::JoinedByCells { .. }
         | NoPath::LocalMinimum { .. }
         | NoPath::Enclosed { .. }
         | NoPath::GaveUp(_) => "There may be one: try another --planner.",

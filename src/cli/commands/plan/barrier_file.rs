@@ -1,7 +1,7 @@
 //! `BarrierFile`, the proof that there is no path as JSON.
 
 use motion_lab_core::collision::Scene;
-use motion_lab_core::cspace::{Barrier, BarrierAxis, BarrierCell};
+use motion_lab_core::cspace::{BarrierAxis, BarrierCell};
 use motion_lab_sim::export::JsonNumber;
 use motion_lab_sim::plans::{PlanAttempt, Task};
 use serde::Serialize;
@@ -63,9 +63,8 @@ struct CellEntry {
 impl BarrierFile {
     /// The barrier that the cells of an attempt hold; `None` where they hold none.
     pub fn of(task: &Task, attempt: &dyn PlanAttempt) -> Option<Self> {
-        let map = attempt.cells()?;
-        let barrier = Barrier::between(map, &task.start, &task.goal)?;
-        let (scene, robot) = (map.slice().checker().scene(), map.slice().checker().robot());
+        let (barrier, checker) = attempt.barrier()?;
+        let (scene, robot) = (checker.scene(), checker.robot());
         let is_named = |id| barrier.cells.iter().any(|cell| cell.blocking.obstacle == id);
         Some(BarrierFile {
             version: VERSION,

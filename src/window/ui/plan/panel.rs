@@ -209,10 +209,15 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
                 ui.label("Play on, and it improves its path.");
             }
         }
-        PlanStage::Ended(undecided @ NoPath::Undecided { .. }) => {
+        PlanStage::Ended(undecided @ (NoPath::Undecided { .. } | NoPath::JoinedByCells { .. })) => {
             refusal(ui, &undecided.to_string().replacen("undecided", "Undecided", 1), look);
         }
-        PlanStage::Ended(reason) => refusal(ui, &format!("No path: {reason}"), look),
+        PlanStage::Ended(reason) => {
+            refusal(ui, &format!("No path: {reason}"), look);
+            if plan.drawn().barrier.is_some() {
+                ui.label(RichText::new("Marked: the cells that part the two, and what is in the way.").small());
+            }
+        }
         PlanStage::Read(name, judged) => {
             let drawn = plan.drawn();
             ui.label(format!("{name}: {}, {} edges", drawn.legs(), drawn.edges.len()));

@@ -394,6 +394,5 @@ impl PlanState {
 
 /// The ends of a task, before anything is grown.
 fn nothing(task: &Task) -> Drawn {
-    let ends = [task.start, task.goal];
-    Drawn { ends, edges: Vec::new(), path: Vec::new(), corners: Vec::new(), rejected: None, sensed: None }
+    Drawn::of_ends([task.start, task.goal])
 }

@@ -1,121 +1,178 @@
 //! `CellDecomposition`, a planner that may prove that there is no path.
 
-use crate::collision::Problem;
+use crate::collision::{Checker, Problem};
 use crate::configuration::{AnyConfiguration, Configuration};
-use crate::cspace::{CellMap, CellState, Slice};
-use crate::planning::{NoPath, Planner, Queue, Search};
+use crate::cspace::{Barrier, CellMap, CellState, Slice};
+use crate::planning::{CellSides, NoPath, Planner, Queue, Search};
 use crate::robots::AnyRobot;
 
 /// The level of the finest cells: a 128th of the space's sides.
 const FINEST: u32 = 7;
 
-/// The number of cells that an iteration judges.
+/// The number of cells of a plane that an iteration judges.
 const CELLS: u32 = 256;
+
+/// The same in a space of three dimensions, which has many more.
+const CELLS_OF_SPACE: u32 = 2048;
 
 /// Approximate cell decomposition (Brooks and Lozano-Perez, 1985): the cells of the configuration space are cut until
 /// cells proven free join the start to the goal, or cells proven blocked part them.
 ///
 /// The first gives a path through the middles of cells, the second a proof: [`NoPath::Unreachable`], whose
-/// [`Barrier`](crate::cspace::Barrier) anybody can check. It is for spaces of two dimensions: a disc's positions within
-/// the scene's bounds, and an arm of two links. Any other robot ends it with [`NoPath::Unsuited`]. Where the finest
-/// cells decide neither it ends with [`NoPath::Undecided`].
+/// [`Barrier`] anybody can check. It is for spaces of two dimensions, a disc's positions within the scene's bounds and
+/// an arm of two links, and of three, an arm of three links and a car. A car drives no straight lines, so that cells
+/// never give it a path ([`NoPath::JoinedByCells`]); but what parts any motion of it parts every drive too. Of a car
+/// with a trailer the cells are those of the car alone. Where the finest cells decide neither it ends with
+/// [`NoPath::Undecided`].
 ///
-/// An iteration judges 256 cells.
+/// An iteration judges 256 cells of a plane, and looks at what they join; in three dimensions 2,048, and looks at it
+/// each time that all cells of a size are judged.
 #[derive(Clone, Debug)]
 pub struct CellDecomposition {
     search: Search<AnyRobot>,
-    map: Option<CellMap>,
+    cells: Option<JudgedCells>,
+}
+
+/// The cells of the robot's space.
+#[derive(Clone, Debug)]
+enum JudgedCells {
+    Plane(CellMap),
+    Space {
+        map: CellMap<3>,
+        /// The level up to which it was looked at what the cells join.
+        looked: Option<u32>,
+    },
 }
 
 impl CellDecomposition {
     /// The planner, with nothing known of any cell.
     pub fn new(problem: Problem<AnyRobot>) -> Self {
-        let slice = Slice::through(problem.checker(), &problem.start()).ok();
-        // where other coordinates matter too, parting the start from the goal in the slice proves nothing
-        let slice = slice.filter(|slice| slice.held().is_empty());
+        let checker = problem.checker();
+        // the start is a configuration of the robot, whose plane has nothing held where it is the whole space
+        let plane = Slice::through(checker, &problem.start()).ok().filter(|plane| plane.held().is_empty());
+        let cells = match (plane, Slice::space(checker)) {
+            (Some(plane), _) => Some(JudgedCells::Plane(CellMap::new(plane, FINEST))),
+            (None, Some(space)) => Some(JudgedCells::Space { map: CellMap::new(space, FINEST), looked: None }),
+            (None, None) => None,
+        };
         let mut search = Search::from_start(problem);
-        search.end = slice.is_none().then_some(NoPath::Unsuited("cells are for discs and for arms of two links"));
-        CellDecomposition { search, map: slice.map(|slice| CellMap::new(slice, FINEST)) }
-    }
-
-    /// Judges cells, and takes the path where those that are free join the ends; the reason is why there is none.
-    fn refine(&mut self) -> Option<NoPath> {
-        let map = self.map.as_mut()?;
-        let is_done = !map.refine(CELLS);
-        let raster = CellStates::of(map);
-        // either end is free, so all cells at whose side it lies are open, and any of them will do
-        let place = |q: AnyConfiguration| raster.cell(map.slice().point(&q.in_chart()));
-        let [start, goal] = [self.search.problem.start(), self.search.problem.goal()].map(place);
-        if let Some(cells) = raster.way(start, goal, |state| state == CellState::Free) {
-            // within one cell the straight way is free
-            let cells = if cells.len() > 1 { &cells[..] } else { &[] };
-            let middles: Vec<AnyConfiguration> =
-                cells.iter().map(|cell| map.slice().at(raster.middle(*cell))).collect();
-            let goal = self.search.problem.goal().in_chart();
-            let end = middles.into_iter().chain([goal]).try_fold(0, |node, q| self.search.reach(node, q));
-            let is_solved = end.is_some_and(|end| self.search.take_branch(end));
-            let nodes = self.search.growth.nodes().len();
-            return (!is_solved).then_some(NoPath::NoneInGraph { nodes });
-        }
-        if raster.way(start, goal, |state| state != CellState::Blocked).is_none() {
-            // both ends lie within the cells, and so does every path between them
-            return Some(NoPath::Unreachable { cells: map.progress().judged });
-        }
-        let unit = if map.slice().wraps() { "rad" } else { "m" };
-        is_done.then_some(NoPath::Undecided { sides: raster.steps, unit })
+        search.end = cells.is_none().then_some(NoPath::Unsuited("cells are for spaces of two and three dimensions"));
+        CellDecomposition { search, cells }
     }
 }
 
-/// The states of the finest cells, row after row.
-struct CellStates {
+impl CellDecomposition {
+    fn barrier_of<'a, const N: usize>(&self, map: &'a CellMap<N>) -> Option<(Barrier, &'a Checker<AnyRobot>)> {
+        let [start, goal] = ends(&self.search, map.slice());
+        Some((Barrier::between(map, &start, &goal)?, map.slice().checker()))
+    }
+}
+
+/// The ends of a problem in the space of a slice: of a car with a trailer those of the car alone.
+fn ends<const N: usize>(search: &Search<AnyRobot>, slice: &Slice<N>) -> [AnyConfiguration; 2] {
+    [search.problem.start(), search.problem.goal()].map(|q| slice.at(slice.point(&q.in_chart())))
+}
+
+/// What the cells of a level join: the path is taken where those that are free join the ends; the reason is why there
+/// is none, and `None` where that is not known.
+fn look<const N: usize>(search: &mut Search<AnyRobot>, map: &CellMap<N>, level: u32) -> Option<NoPath> {
+    let raster = CellStates::of(map, level);
+    // either end is free, so all cells at whose side it lies are open, and any of them will do
+    let [start, goal] = ends(search, map.slice()).map(|q| raster.cell(map.slice().point(&q)));
+    if raster.joins(start, goal, |state| state == CellState::Free) {
+        let cells = raster.way(start, goal, |state| state == CellState::Free);
+        if let AnyRobot::Hitch(_) = search.problem.checker().robot() {
+            return Some(NoPath::JoinedByCells { cells: cells.len() });
+        }
+        // within one cell the straight way is free
+        let cells = if cells.len() > 1 { &cells[..] } else { &[] };
+        let middles: Vec<AnyConfiguration> = cells.iter().map(|cell| map.slice().at(raster.middle(*cell))).collect();
+        let goal = search.problem.goal().in_chart();
+        let end = middles.into_iter().chain([goal]).try_fold(0, |node, q| search.reach(node, q));
+        let is_solved = end.is_some_and(|end| search.take_branch(end));
+        let nodes = search.growth.nodes().len();
+        return (!is_solved).then_some(NoPath::NoneInGraph { nodes });
+    }
+    if !raster.joins(start, goal, |state| state != CellState::Blocked) {
+        // both ends lie within the cells, and so does every path between them
+        return Some(NoPath::Unreachable { cells: map.progress().judged });
+    }
+    let sides = || raster.steps.into_iter().enumerate().map(|(i, side)| (side, map.slice().unit(i))).collect();
+    map.progress().done.then(|| NoPath::Undecided { sides: CellSides(sides()) })
+}
+
+/// The states of the cells of a level, row after row.
+struct CellStates<const N: usize> {
     states: Vec<CellState>,
     side: usize,
-    min: [f64; 2],
+    min: [f64; N],
     /// The sides of a cell.
-    steps: [f64; 2],
-    wraps: bool,
+    steps: [f64; N],
+    wraps: [bool; N],
 }
 
-impl CellStates {
-    fn of(map: &CellMap) -> Self {
-        let (min, max, side) = (map.slice().min(), map.slice().max(), 1 << map.finest());
-        let steps = [0, 1].map(|i| (max[i] - min[i]) / side as f64);
-        CellStates { states: map.raster(map.finest()), side, min, steps, wraps: map.slice().wraps() }
+impl<const N: usize> CellStates<N> {
+    fn of(map: &CellMap<N>, level: u32) -> Self {
+        let (slice, side) = (map.slice(), 1 << level);
+        let steps = std::array::from_fn(|i| (slice.max()[i] - slice.min()[i]) / side as f64);
+        let wraps = std::array::from_fn(|i| slice.wraps_along(i));
+        CellStates { states: map.raster(level), side, min: slice.min(), steps, wraps }
     }
 
     /// The number of the cell in which a point lies; on its last side, of the last.
-    fn cell(&self, p: [f64; 2]) -> usize {
+    fn cell(&self, p: [f64; N]) -> usize {
         let last = (self.side - 1) as f64;
-        let [column, row] = [0, 1].map(|i| ((p[i] - self.min[i]) / self.steps[i]).floor().clamp(0.0, last) as usize);
-        row * self.side + column
+        let place = |i: usize| ((p[i] - self.min[i]) / self.steps[i]).floor().clamp(0.0, last) as usize;
+        (0..N).rev().fold(0, |cell, i| cell * self.side + place(i))
     }
 
-    fn middle(&self, cell: usize) -> [f64; 2] {
-        let place = [cell % self.side, cell / self.side];
-        [0, 1].map(|i| self.min[i] + (place[i] as f64 + 0.5) * self.steps[i])
+    fn place(&self, cell: usize) -> [usize; N] {
+        std::array::from_fn(|i| cell / self.side.pow(i as u32) % self.side)
     }
 
-    /// The cells that share a side with a cell, with the distance to them. A way through a corner alone would touch the
-    /// cells on both sides of it, so those decide.
+    fn middle(&self, cell: usize) -> [f64; N] {
+        let place = self.place(cell);
+        std::array::from_fn(|i| self.min[i] + (place[i] as f64 + 0.5) * self.steps[i])
+    }
+
+    /// The cells that share a side with a cell, with the distance to them. A way through a corner or an edge alone
+    /// would touch the cells beside it, so those decide.
     fn beside(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let (place, side) = ([cell % self.side, cell / self.side], self.side);
-        [(0, side - 1), (0, 1), (1, side - 1), (1, 1)].into_iter().filter_map(move |(i, step)| {
-            let mut other = place;
-            other[i] = (place[i] + step) % side;
-            let across = place[i].abs_diff(other[i]) > 1;
-            (self.wraps || !across).then(|| (other[1] * side + other[0], self.steps[i]))
+        let (place, side) = (self.place(cell), self.side);
+        (0..N).flat_map(move |i| [(i, side - 1), (i, 1)]).filter_map(move |(i, step)| {
+            let other = (place[i] + step) % side;
+            let across = place[i].abs_diff(other) > 1;
+            let stride = side.pow(i as u32);
+            (self.wraps[i] || !across).then(|| (cell - place[i] * stride + other * stride, self.steps[i]))
         })
     }
 
-    /// The shortest way from cell to cell through those whose state `passes`, both ends too.
-    fn way(&self, start: usize, goal: usize, passes: impl Fn(CellState) -> bool) -> Option<Vec<usize>> {
+    /// Whether a way leads from cell to cell through those whose state `passes`, both ends too.
+    fn joins(&self, start: usize, goal: usize, passes: impl Fn(CellState) -> bool) -> bool {
+        let mut is_reached = vec![false; self.states.len()];
+        let mut open = Vec::new();
+        let mut reach = |open: &mut Vec<usize>, cell: usize| {
+            if passes(self.states[cell]) && !std::mem::replace(&mut is_reached[cell], true) {
+                open.push(cell);
+            }
+        };
+        reach(&mut open, start);
+        while let Some(cell) = open.pop() {
+            if cell == goal {
+                return true;
+            }
+            self.beside(cell).for_each(|(other, _)| reach(&mut open, other));
+        }
+        false
+    }
+
+    /// The shortest way from cell to cell through those whose state `passes`, where one [joins](Self::joins) them.
+    fn way(&self, start: usize, goal: usize, passes: impl Fn(CellState) -> bool) -> Vec<usize> {
         let mut costs = vec![f64::INFINITY; self.states.len()];
         let mut before = vec![start; self.states.len()];
         let mut open = Queue::new();
-        if passes(self.states[start]) {
-            costs[start] = 0.0;
-            open.push(0.0, start);
-        }
+        costs[start] = 0.0;
+        open.push(0.0, start);
         while let Some(cell) = open.pop().filter(|cell| *cell != goal) {
             for (other, length) in self.beside(cell) {
                 let cost = costs[cell] + length;
@@ -125,15 +182,12 @@ impl CellStates {
                 }
             }
         }
-        if costs[goal] == f64::INFINITY {
-            return None;
-        }
         let mut cells = vec![goal];
         while cells[cells.len() - 1] != start {
             cells.push(before[cells[cells.len() - 1]]);
         }
         cells.reverse();
-        Some(cells)
+        cells
     }
 }
 
@@ -151,10 +205,35 @@ impl Planner<AnyRobot> for CellDecomposition {
     }
 
     fn advance(&mut self) {
-        self.search.end = self.refine();
+        let search = &mut self.search;
+        search.end = match &mut self.cells {
+            None => return,
+            Some(JudgedCells::Plane(map)) => {
+                map.refine(CELLS);
+                look(search, map, map.finest())
+            }
+            Some(JudgedCells::Space { map, looked }) => {
+                map.refine(CELLS_OF_SPACE);
+                let level = map.judged_level().filter(|level| Some(*level) > *looked);
+                *looked = level.or(*looked);
+                level.and_then(|level| look(search, map, level))
+            }
+        };
     }
 
     fn cells(&self) -> Option<&CellMap> {
-        self.map.as_ref()
+        match &self.cells {
+            Some(JudgedCells::Plane(map)) => Some(map),
+            _ => None,
+        }
+    }
+
+    fn barrier(&self) -> Option<(Barrier, &Checker<AnyRobot>)> {
+        // asked before, cells that part nothing would be looked through at every iteration
+        let is_parted = matches!(self.search.end, Some(NoPath::Unreachable { .. }));
+        match self.cells.as_ref().filter(|_| is_parted)? {
+            JudgedCells::Plane(map) => self.barrier_of(map),
+            JudgedCells::Space { map, .. } => self.barrier_of(map),
+        }
     }
 }

@@ -120,15 +120,32 @@ fn doors_are_opened_before_walls_are_taken_away() {
     assert_eq!(name, "A's bed");
 }
 
-#[test]
-fn a_robot_of_no_cells_and_an_end_outside_are_undecided() {
-    let car = Task::new(
-        "Hitch",
-        AnyRobot::of_kind("hitch", &[6.5, 2.5, 0.0]).unwrap().0,
-        World::lot(),
-        [[6.5, 2.5, 0.0], [12.0, 2.5, 0.0]].map(|q| AnyRobot::of_kind("hitch", &q).unwrap().1),
+/// Hitch east of a wall of the Lot's middle that has a gate of 4 m in it, which is open or closed, and the way back
+/// west.
+fn at_the_gate(is_open: bool, trailer: bool) -> Task {
+    let text = format!(
+        "World(version: 1, name: \"yard\", bounds: (min: (0, 0), max: (26, 9)), walls: [
+            (name: \"south\", points: [(13, 0), (13, 2.5)]), (name: \"north\", points: [(13, 6.5), (13, 9)])],
+            doors: [(name: \"gate\", hinge: (13, 2.5), end: (13, 6.5), open: {is_open})])"
     );
-    assert!(matches!(car.what_blocks(), Err(NoRemoval::Undecided(NoPath::Unsuited(_)))));
+    let at = |x: f64| [x, 4.5, 0.0, 0.0][..if trailer { 4 } else { 3 }].to_vec();
+    let [(robot, start), (_, goal)] = [5.0, 19.0].map(|x| AnyRobot::of_kind("hitch", &at(x)).unwrap());
+    Task::new("Hitch", robot, World::parse("yard.ron", &text).unwrap(), [start, goal])
+}
+
+#[test]
+fn a_cars_gate_is_opened_for_it_to_drive_through_with_its_trailer_or_without() {
+    for trailer in [false, true] {
+        let removal = at_the_gate(false, trailer).what_blocks().unwrap();
+        let gate = Blocker { kind: BlockerKind::Door, name: "gate".to_owned() };
+        assert_eq!((removal.blockers, removal.doors, removal.is_least), (vec![gate], None, true));
+        let removal = at_the_gate(true, trailer).what_blocks().unwrap();
+        assert_eq!((removal.blockers, removal.tried), (vec![], 1));
+    }
+}
+
+#[test]
+fn an_end_outside_the_world_is_undecided() {
     let outside = rover(World::apartment(), [ROOM_A, [20.0, 1.0]]).what_blocks();
     assert!(matches!(outside, Err(NoRemoval::Undecided(NoPath::Problem(_)))), "{outside:?}");
 }
