@@ -12,6 +12,7 @@ README = Path(__file__).parents[1] / "README.md"
 
 def test_the_code_of_the_readme_runs_and_says_what_it_says(tmp_path, monkeypatch):
     pytest.importorskip("gymnasium")
+    pytest.importorskip("pandas")
     monkeypatch.chdir(tmp_path)
     blocks = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
     assert len(blocks) >= 6
