@@ -53,7 +53,7 @@ pub struct ComparedAttempt {
     pub seconds: f64,
     /// Length and clearance of the path, or why there is none.
     pub path: Result<PathLengths, String>,
-    /// The first path's length, and that of each shorter one: looked at every 500 iterations and at the end.
+    /// The first path's length, and that of each shorter one, at every 500th iteration and at the end.
     pub costs: Vec<PathCost>,
 }
 
@@ -175,7 +175,7 @@ impl PlannerComparison {
         Ok(Some(ComparedAttempt { effort: attempt.effort(), seconds, path, costs, ..none(String::new()) }))
     }
 
-    /// The number of a planner's attempts that had a path after so many iterations.
+    /// The number of a planner's attempts that had a path by a number of iterations.
     pub fn solved_within(attempts: &[ComparedAttempt], planner: PlannerName, iterations: u64) -> usize {
         let own = attempts.iter().filter(|attempt| attempt.planner == planner);
         own.filter(|attempt| attempt.costs.first().is_some_and(|first| first.iterations <= iterations)).count()

@@ -41,7 +41,7 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
     (n > 0).then(|| 0.5 * (numbers[(n - 1) / 2] + numbers[n / 2]))
 }
 
-/// The median length of the paths that a planner's attempts have after so many iterations; an attempt without one
+/// The median length of the paths that a planner's attempts have by a number of iterations; an attempt without one
 /// counts as endless. Each step is a number of iterations at which it is another, with the median from there on.
 fn median_cost(attempts: &[&ComparedAttempt]) -> Vec<(u64, f64)> {
     let mut moments: Vec<u64> = attempts.iter().flat_map(|a| a.costs.iter().map(|cost| cost.iterations)).collect();

@@ -2,9 +2,10 @@
 //! not yet known.
 //!
 //! A [`Slice`] is the plane: for Reach the torus as a square whose edges wrap, for Rusty the workspace with every
-//! obstacle grown by its radius, for Hitch the rear axle's positions at one heading. A [`CellMap`] proves its cells a
-//! few at a time. The same proof finds the [nearest free](nearest_free) configuration. A [`Barrier`] is the smallest
-//! set of blocked cells that parts a start from a goal, and so a proof that there is no path.
+//! obstacle grown by its radius, for Hitch the rear axle's positions at one heading; or the whole space of a robot of
+//! three coordinates ([`Slice::space`]). A [`CellMap`] proves its cells a few at a time. The same proof finds the
+//! [nearest free](nearest_free) configuration. A [`Barrier`] is the smallest set of blocked cells that parts a start
+//! from a goal, and so a proof that there is no path.
 //!
 //! ```
 //! use motion_lab_core::collision::{Checker, Scene};

@@ -59,7 +59,7 @@ pub trait Planner<R: Robot, M: Motion<Configuration = R::Configuration> + 'stati
         self.search().between(from, to)
     }
 
-    /// The cells of the configuration space that it has judged, to be drawn; `None` for a planner without.
+    /// The cells of a plane of configurations that it has judged, to be drawn; `None` for a planner without.
     fn cells(&self) -> Option<&CellMap> {
         None
     }

@@ -136,7 +136,7 @@ pub trait PlanAttempt: Send {
     /// What there is to draw: the growth, the path, and what the last motion that was rejected hits.
     fn drawn(&self) -> Drawn;
 
-    /// The cells of the configuration space that the planner has judged, if it judges any.
+    /// The cells of a plane of configurations that the planner has judged, if it judges any.
     fn cells(&self) -> Option<&CellMap>;
 
     /// The blocked cells that part the start from the goal, if the planner has such, with the robot and the scene that

@@ -1,4 +1,4 @@
-//! The cells of planes, held against samples; and of spaces of three coordinates.
+//! The cells of planes, held against samples. Those of spaces of three coordinates are in `tests/planning/spaces.rs`.
 
 use std::f64::consts::PI;
 

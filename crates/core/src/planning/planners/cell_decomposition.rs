@@ -25,7 +25,7 @@ const CELLS_OF_SPACE: u32 = 2048;
 /// with a trailer the cells are those of the car alone. Where the finest cells decide neither it ends with
 /// [`NoPath::Undecided`].
 ///
-/// An iteration judges 256 cells of a plane, and looks at what they join; in three dimensions 2,048, and looks at it
+/// An iteration judges 256 cells of a plane, and then what they join; in three dimensions 2,048, and what they join
 /// each time that all cells of a size are judged.
 #[derive(Clone, Debug)]
 pub struct CellDecomposition {
@@ -39,8 +39,8 @@ enum JudgedCells {
     Plane(CellMap),
     Space {
         map: CellMap<3>,
-        /// The level up to which it was looked at what the cells join.
-        looked: Option<u32>,
+        /// The finest level of which is known what its cells join.
+        joined: Option<u32>,
     },
 }
 
@@ -52,7 +52,7 @@ impl CellDecomposition {
         let plane = Slice::through(checker, &problem.start()).ok().filter(|plane| plane.held().is_empty());
         let cells = match (plane, Slice::space(checker)) {
             (Some(plane), _) => Some(JudgedCells::Plane(CellMap::new(plane, FINEST))),
-            (None, Some(space)) => Some(JudgedCells::Space { map: CellMap::new(space, FINEST), looked: None }),
+            (None, Some(space)) => Some(JudgedCells::Space { map: CellMap::new(space, FINEST), joined: None }),
             (None, None) => None,
         };
         let mut search = Search::from_start(problem);
@@ -75,7 +75,7 @@ fn ends<const N: usize>(search: &Search<AnyRobot>, slice: &Slice<N>) -> [AnyConf
 
 /// What the cells of a level join: the path is taken where those that are free join the ends; the reason is why there
 /// is none, and `None` where that is not known.
-fn look<const N: usize>(search: &mut Search<AnyRobot>, map: &CellMap<N>, level: u32) -> Option<NoPath> {
+fn outcome<const N: usize>(search: &mut Search<AnyRobot>, map: &CellMap<N>, level: u32) -> Option<NoPath> {
     let raster = CellStates::of(map, level);
     // either end is free, so all cells at whose side it lies are open, and any of them will do
     let [start, goal] = ends(search, map.slice()).map(|q| raster.cell(map.slice().point(&q)));
@@ -210,13 +210,13 @@ impl Planner<AnyRobot> for CellDecomposition {
             None => return,
             Some(JudgedCells::Plane(map)) => {
                 map.refine(CELLS);
-                look(search, map, map.finest())
+                outcome(search, map, map.finest())
             }
-            Some(JudgedCells::Space { map, looked }) => {
+            Some(JudgedCells::Space { map, joined }) => {
                 map.refine(CELLS_OF_SPACE);
-                let level = map.judged_level().filter(|level| Some(*level) > *looked);
-                *looked = level.or(*looked);
-                level.and_then(|level| look(search, map, level))
+                let level = map.judged_level().filter(|level| Some(*level) > *joined);
+                *joined = level.or(*joined);
+                level.and_then(|level| outcome(search, map, level))
             }
         };
     }
@@ -229,7 +229,7 @@ impl Planner<AnyRobot> for CellDecomposition {
     }
 
     fn barrier(&self) -> Option<(Barrier, &Checker<AnyRobot>)> {
-        // asked before, cells that part nothing would be looked through at every iteration
+        // asked before, cells that part nothing would be searched at every iteration
         let is_parted = matches!(self.search.end, Some(NoPath::Unreachable { .. }));
         match self.cells.as_ref().filter(|_| is_parted)? {
             JudgedCells::Plane(map) => self.barrier_of(map),
