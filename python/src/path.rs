@@ -129,8 +129,9 @@ impl PyPath {
         self.lengths.length
     }
 
-    /// A length that no path of such a disc or rover undercuts, metres: larger by its tube, and with the clearance that
-    /// was asked for. It is that of the shortest path, by tangents and arcs, less rounding. None for another robot.
+    /// A length that no path undercuts, in the unit of `length`: of a rover larger by its tube, and with the clearance
+    /// that was asked for. A disc's or a rover's is that of the shortest path, by tangents and arcs, less rounding; an
+    /// arm's or a car's is proven by cells and some per cent shorter, a car's that turns about far more.
     #[getter]
     fn length_bound(&self, py: Python<'_>) -> Option<f64> {
         py.detach(|| self.task.length_bound())

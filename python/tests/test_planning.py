@@ -137,7 +137,8 @@ def test_no_path_of_a_disc_is_shorter_than_its_bound():
     short = ml.plan(world, *ends, robot=ml.Disc(0.1), planner="rrt", clearance=0, shorten=True)
     assert by_hand <= short.length < first.length and short.verify() == short.clearance
     assert first.length_bound == path.length_bound
-    assert round_the_post().length_bound is None
+    arm = round_the_post()
+    assert 1.5 < arm.length_bound < arm.length
 
 
 def test_no_path_says_why_in_the_library_s_words():

@@ -176,7 +176,8 @@ pub fn gather(world: &mut World) {
         let waiting = pending::waits(world, &drawn.standing.name, &robots);
         let doors = pending::doors(world, &drawn.standing.name);
         let (picture, atlas) = (Arc::clone(&drawn.picture), Arc::clone(&drawn.atlas));
-        cockpits.push(Cockpit { world: picture, atlas, robots, crowd, doors, waiting });
+        let standing = Arc::clone(&drawn.standing);
+        cockpits.push(Cockpit { world: picture, atlas, standing, robots, crowd, doors, waiting });
     }
     let (undo, history) = (world.resource::<Undo>(), world.resource::<History>());
     let dashboard = Dashboard {

@@ -1,5 +1,7 @@
 //! Planning in the window, behaviour by behaviour.
 
+mod removal;
+
 use super::*;
 use crate::window::ui::PlanState;
 use motion_lab_core::configuration::Configuration;

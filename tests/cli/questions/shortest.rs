@@ -110,7 +110,7 @@ fn a_path_that_is_shortened_is_shorter_and_as_proven() {
 fn what_has_no_bound_or_no_proof_is_refused() {
     let arm = ["plan", "--robot", "reach", "--from", "2.0,0", "--to", "3.1,0"];
     for (more, words) in [
-        (&["--bound"][..], "--bound: only a rover's path has a bound"),
+        (&["--checker", "parry", "--bound"][..], "--bound rests on proofs, and parry proves nothing"),
         (&["--checker", "parry", "--shorten"], "--shorten rests on proofs, and parry proves nothing"),
         (&["--compare", "rrt", "--shorten"], "cannot be used with"),
         (&["--compare", "rrt", "--bound"], "cannot be used with"),
@@ -118,4 +118,45 @@ fn what_has_no_bound_or_no_proof_is_refused() {
         let refused = run(&[&arm[..], more].concat());
         assert!(refused.code == Some(2) && refused.err.contains(words), "{more:?}: {} {}", refused.out, refused.err);
     }
+}
+
+#[test]
+fn an_arm_s_and_a_car_s_bound_are_those_of_cells_in_the_unit_of_their_lengths() {
+    let plan = |robot: &str, ends: [&str; 2], more: &[&str]| {
+        run(&[&["plan", "--robot", robot, "--from", ends[0], "--to", ends[1], "--bound"], more].concat())
+    };
+    // nothing is in the way: the straight line, 0.5 rad of joints 3 and 4 tenths apart
+    let arm = json(&plan("reach", ["1.5,0", "1.8,0.4"], &["--json"]).done());
+    let (length, bound) = (arm["length"].as_f64().unwrap(), arm["length_bound"].as_f64().unwrap());
+    assert!(bound <= 0.5 && bound > 0.499 && length >= 0.5, "{arm}");
+    let words = plan("reach", ["1.5,0", "1.8,0.4"], &[]).done();
+    assert!(words.contains("; no path is shorter than 0.49") && words.contains(" rad"), "{words}");
+    // straight ahead by 5 m, of which the goal's region takes 0.1 m
+    let car = json(&plan("hitch", ["4,2.5,0", "9,2.5,0"], &["--json"]).done());
+    let (length, bound) = (car["length"].as_f64().unwrap(), car["length_bound"].as_f64().unwrap());
+    assert!(bound <= 4.9 && bound > 4.4 && length >= bound, "{car}");
+    // round the post: more than the straight 1.1 rad, and by how much the path may be longer
+    let round = plan("reach", ["2.0,0", "3.1,0"], &["--planner", "rrt"]).done();
+    let line = round.lines().find(|line| line.starts_with("path")).unwrap();
+    let after = |words: &str| line.split(words).nth(1).unwrap().split(' ').next().unwrap().parse::<f64>().unwrap();
+    let (length, bound, percent) = (after("legs, "), after("shorter than "), after("within "));
+    assert!(
+        bound > 1.1 && percent >= 100.0 * (length / bound - 1.0) - 0.1 && percent < 101.5 * (length / bound),
+        "{line}"
+    );
+    assert!(percent < 100.0 * (length / bound - 1.0) + 1.1, "{line}");
+    // a world whose only way is shut
+    let folder = tempfile::tempdir().unwrap();
+    let posts = "World(version: 1, name: \"posts\", bounds: (min: (-3, -3), max: (3, 3)), obstacles: [\
+                 (name: \"up\", shape: Disc(center: (0, 0.3), radius: 0.15)), \
+                 (name: \"down\", shape: Disc(center: (0, -0.3), radius: 0.15))])";
+    fs::write(folder.path().join("posts.ron"), posts).unwrap();
+    let ask = ["plan", "--robot", "reach3", "--world", "posts.ron", "--from", "0,0.4,-0.2", "--to", "3.1,0.2,0.3"];
+    let none = run_in(folder.path(), &[&ask[..], &["--bound", "--iterations", "50"]].concat());
+    assert_eq!(none.code, Some(7), "{} {}", none.out, none.err);
+    assert!(
+        none.err.starts_with("motion-lab: no path: cells proven blocked part the goal from the start"),
+        "{}",
+        none.err
+    );
 }

@@ -53,7 +53,7 @@ pub use path::{CertifiedPath, Leg, LinePath, PathError, UnprovenPath};
 pub use planner::{Planner, accepted, called_free, solve, solve_unproven};
 pub use planners::{
     Bug1, Bug2, CellDecomposition, GridSearch, PotentialField, Prm, Rrt, RrtConnect, RrtStar, TangentGraph,
-    VisibilityGraph, length_bound,
+    VisibilityGraph, cell_length_bound, length_bound,
 };
 pub use progress::Progress;
 pub use queue::Queue;

@@ -5,7 +5,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{Barrier, CellMap, CellState, Slice};
-use motion_lab_core::planning::CellDecomposition;
+use motion_lab_core::num::lesser;
+use motion_lab_core::planning::hybrid::HybridAStar;
+use motion_lab_core::planning::{CellDecomposition, Metric, cell_length_bound};
 use motion_lab_core::robots::AnyRobot;
 
 use super::*;
@@ -259,4 +261,90 @@ fn samples_do_not_contradict_what_is_proven_of_cells_in_space() {
         let share = proven as f64 / 20_000.0;
         assert!(share > least && (share - progress.free - progress.blocked).abs() < 0.02, "{share} {progress:?}");
     }
+}
+
+#[test]
+fn no_path_is_shorter_than_the_bound_that_cells_prove() {
+    let mut draws = Stream::new(Seed(11), "planning/cell bounds");
+    let (mut met, mut nearest) = ([0; 3], f64::INFINITY);
+    for round in 0..24 {
+        let kind = round % 3;
+        let (scene, robot, ends) = match kind {
+            0 => {
+                let turns = [2.0 + 0.2 * draws.unit(), 3.1 - 0.2 * draws.unit()];
+                let ends = turns.map(|turn| AnyConfiguration::T2(Tn([turn, 0.4 * draws.unit()])));
+                (Scene::workbench(), AnyRobot::Reach(Reach::workbench()), ends)
+            }
+            1 => {
+                let (scene, arm) = posts(1, 0.12);
+                let ends =
+                    [[0.1, 0.3, -0.3], [3.0, 0.2, 0.4]].map(|turns| bent(turns.map(|turn| turn - 0.2 * draws.unit())));
+                (scene, arm, ends)
+            }
+            _ => {
+                let ends = [4.0, 18.0].map(|x| parked(x, 5.0 + draws.unit(), 0.4 * draws.unit(), None));
+                (yard(2.6 + draws.unit()), car(false), ends)
+            }
+        };
+        let problem = Problem::try_new(Checker::new(scene, robot), ends[0], ends[1], Seed(round)).unwrap();
+        let near = if kind == 2 { &[0.1, 0.1, 0.05][..] } else { &[] };
+        let bound = cell_length_bound(&problem, near).unwrap();
+        let straight = Metric::unit(&ends[0]).distance(&ends[0], &ends[1]);
+        let length = match (robot, ends) {
+            (AnyRobot::Hitch(car), [AnyConfiguration::Hitch(start), AnyConfiguration::Hitch(goal)]) => {
+                let scene = problem.checker().scene().clone();
+                let own = Problem::try_new(Checker::new(scene, car), start, goal, Seed(round)).unwrap();
+                let Ok(path) = solve(&mut HybridAStar::new(own), &Bounds::of_iterations(3000)) else { continue };
+                let arcs = path.legs().iter().map(|leg| leg.motion());
+                arcs.map(|arc| (arc.control().v * arc.seconds()).abs()).sum()
+            }
+            _ => {
+                let path = solve(&mut RrtConnect::new(problem.clone()), &Bounds::default()).unwrap();
+                assert!(bound > 0.999 * straight, "round {round}: {bound} is shorter than the straight line");
+                path.length(&Metric::unit(&ends[0]))
+            }
+        };
+        assert!(bound <= length, "round {round}: {bound} {length}");
+        nearest = lesser(length / bound, nearest);
+        met[kind as usize] += 1;
+    }
+    assert!(met.iter().all(|met| *met > 4) && nearest < 1.05, "{met:?} {nearest}");
+}
+
+#[test]
+fn where_cells_prove_that_there_is_no_path_the_bound_is_infinite() {
+    let ends = [[4.0, 5.0, 0.0], [18.0, 5.0, 0.0]].map(|[x, y, theta]| parked(x, y, theta, Some(theta)));
+    let problem = |gap: f64| Problem::try_new(Checker::new(yard(gap), car(true)), ends[0], ends[1], Seed(1)).unwrap();
+    assert_eq!(cell_length_bound(&problem(1.0), &[]), Some(f64::INFINITY));
+    let straight = cell_length_bound(&problem(3.0), &[]).unwrap();
+    assert!(straight <= 14.0 && straight > 13.99, "{straight}");
+    // a disc has a bound of its own
+    let rover = AnyRobot::Rusty(Rusty { body_radius: 0.2, ..RUSTY });
+    let [start, goal] = [4.0, 18.0].map(|x| AnyConfiguration::Pose(Pose2::new(x, 5.0, 0.0)));
+    let rover = Problem::try_new(Checker::new(yard(1.0), rover), start, goal, Seed(1)).unwrap();
+    assert_eq!(cell_length_bound(&rover, &[]), None);
+}
+
+#[test]
+fn ends_that_are_all_but_one_are_no_proof_and_no_bound_beyond_their_distance() {
+    let yard = yard(3.0);
+    for (x, trailer) in [(1e-170, None), (1e-12, Some(0.0)), (1e-7, None), (0.0, None)] {
+        let [start, goal] = [0.0, x].map(|x| parked(x, 5.0, 0.0, trailer));
+        let problem = Problem::try_new(Checker::new(yard.clone(), car(trailer.is_some())), start, goal, Seed(1));
+        let bound = cell_length_bound(&problem.unwrap(), &[]).unwrap();
+        assert!(bound >= 0.0 && bound <= x, "{x}: {bound}");
+    }
+    let arm = Checker::new(Scene::workbench(), AnyRobot::Reach(Reach::workbench()));
+    for x in [1e-300, 1e-13, 1e-9, 1e-7, 1e-5] {
+        let turns = [1.7, 1.7 + x];
+        let ends = turns.map(|turn| AnyConfiguration::T2(Tn([turn, 0.3])));
+        let bound = cell_length_bound(&Problem::try_new(arm.clone(), ends[0], ends[1], Seed(1)).unwrap(), &[]).unwrap();
+        assert!(bound >= 0.0 && bound <= turns[1] - turns[0], "{x}: {bound}");
+    }
+    // what is no distance counts as none
+    let ends = [4.0, 18.0].map(|x| parked(x, 5.0, 0.0, None));
+    let problem = Problem::try_new(Checker::new(yard, car(false)), ends[0], ends[1], Seed(1)).unwrap();
+    let bound = |reach: f64| cell_length_bound(&problem, &[reach; 3]).unwrap();
+    assert!([-1.0, f64::NAN, f64::NEG_INFINITY].iter().all(|reach| bound(*reach) == bound(0.0)));
+    assert_eq!(bound(f64::INFINITY), 0.0);
 }

@@ -121,9 +121,16 @@ pub fn proven(clearance: f64) -> String {
     format!("{:.digits$}", (clearance * scale).floor() / scale)
 }
 
-/// What a length says that no path undercuts, metres: rounded down, so that no more is claimed than is so.
-pub fn bounded(bound: f64) -> String {
-    format!("no path is shorter than {:.4} m", (bound * 1e4).floor() / 1e4)
+/// What a length says that no path undercuts, in this unit: rounded down, so that no more is claimed than is so.
+pub fn bounded(bound: f64, unit: &str) -> String {
+    format!("no path is shorter than {:.4} {unit}", (bound * 1e4).floor() / 1e4)
+}
+
+/// How near a path comes to the best that there may be, by a length that none undercuts: in whole per cent, rounded up;
+/// nothing where it is within one.
+pub fn within_best(length: f64, bound: f64) -> Option<String> {
+    let more = (100.0 * (length / bound - 1.0)).ceil();
+    (more > 1.0 && more.is_finite()).then(|| format!("within {more} % of the best"))
 }
 
 /// The unit in which a robot's paths are measured.
@@ -133,12 +140,22 @@ pub fn unit(robot: &AnyRobot) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::{bounded, proven};
+    use super::{bounded, proven, within_best};
 
     #[test]
     fn a_bound_is_never_shown_larger_than_it_is() {
-        assert_eq!(bounded(3.81189), "no path is shorter than 3.8118 m");
-        assert_eq!(bounded(3.8118), "no path is shorter than 3.8118 m");
+        assert_eq!(bounded(3.81189, "m"), "no path is shorter than 3.8118 m");
+        assert_eq!(bounded(0.99999, "rad"), "no path is shorter than 0.9999 rad");
+        assert_eq!(bounded(3.8118, "m"), "no path is shorter than 3.8118 m");
+    }
+
+    #[test]
+    fn nearness_to_the_best_is_rounded_up() {
+        assert_eq!(within_best(1.111, 1.0).unwrap(), "within 12 % of the best");
+        assert_eq!(within_best(2.0, 1.0).unwrap(), "within 100 % of the best");
+        for (length, bound) in [(1.0, 1.0), (1.009, 1.0), (1.0, 0.0), (1.0, f64::INFINITY)] {
+            assert_eq!(within_best(length, bound), None, "{length} {bound}");
+        }
     }
 
     #[test]

@@ -50,6 +50,24 @@ pub struct Removal {
     pub tried: usize,
 }
 
+impl Removal {
+    /// What to do with these things, as after *if you*: `open "A's door" and take away "the post"`.
+    pub fn to_do(things: &[Blocker]) -> String {
+        let list = |verb: &str, is_door: bool| {
+            let of_kind = things.iter().filter(|thing| (thing.kind == BlockerKind::Door) == is_door);
+            let names: Vec<String> = of_kind.map(|thing| format!("{:?}", thing.name)).collect();
+            (!names.is_empty()).then(|| format!("{verb} {}", names.join(", ")))
+        };
+        [list("open", true), list("take away", false)].into_iter().flatten().collect::<Vec<_>>().join(" and ")
+    }
+
+    /// The doors that suffice to be opened: the things, where all are doors, or the doors named beside them.
+    pub fn doors_alone(&self) -> Option<&[Blocker]> {
+        let are_doors = self.blockers.iter().all(|thing| thing.kind == BlockerKind::Door);
+        if are_doors { Some(&self.blockers[..]).filter(|doors| !doors.is_empty()) } else { self.doors.as_deref() }
+    }
+}
+
 /// Why no set is named.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum NoRemoval {
@@ -59,9 +77,9 @@ pub enum NoRemoval {
     /// Neither a path nor a proof that there is none.
     #[error(transparent)]
     Undecided(NoPath),
-    /// There are too many sets to look at.
-    #[error("{MAX_TRIED} sets of obstacles were taken away, and none sufficed")]
-    TooMany,
+    /// There are too many sets to look at; this many were.
+    #[error("after {0} sets of things were taken away it is still not known what to move")]
+    TooMany(usize),
 }
 
 /// What comes of a problem without some things.
@@ -88,7 +106,20 @@ impl Task {
     /// [`NoRemoval`]: an end is wrong whatever is taken away, something stays undecided, or too many sets would have to
     /// be tried.
     pub fn what_blocks(&self) -> Result<Removal, NoRemoval> {
-        Trials::new(|gone| self.without(gone).decide()).least()
+        self.what_blocks_within(MAX_TRIED)
+    }
+
+    /// As [`what_blocks`](Self::what_blocks), with no more than so many sets planned without.
+    ///
+    /// # Errors
+    /// Those of `what_blocks`.
+    pub fn what_blocks_within(&self, sets: usize) -> Result<Removal, NoRemoval> {
+        Trials::new(sets, |gone| self.without(gone).decide()).least()
+    }
+
+    /// The same task in a world in which these doors are open, and other things of these are gone.
+    pub fn without_blockers(&self, blockers: &[Blocker]) -> Task {
+        self.without(&blockers.iter().cloned().collect())
     }
 
     /// The same task in a world without these things.
@@ -156,6 +187,8 @@ fn blocker(world: &World, name: &str) -> Option<Blocker> {
 /// The sets that were tried, and the barriers that were found: every set that helps has a thing of each.
 struct Trials<D> {
     decide: D,
+    /// How many sets are planned without at most.
+    most: usize,
     decided: BTreeMap<BTreeSet<Blocker>, Decision>,
     undecided: Option<NoPath>,
 }
@@ -180,8 +213,8 @@ impl SetLimits {
 }
 
 impl<D: FnMut(&BTreeSet<Blocker>) -> Decision> Trials<D> {
-    fn new(decide: D) -> Self {
-        Trials { decide, decided: BTreeMap::new(), undecided: None }
+    fn new(most: usize, decide: D) -> Self {
+        Trials { decide, most, decided: BTreeMap::new(), undecided: None }
     }
 
     fn least(mut self) -> Result<Removal, NoRemoval> {
@@ -195,7 +228,12 @@ impl<D: FnMut(&BTreeSet<Blocker>) -> Decision> Trials<D> {
         let mut doors = None;
         if blockers.iter().any(|blocker| blocker.kind != BlockerKind::Door) {
             let all = SetLimits::up_to(MAX_EXACT);
-            doors = self.first(all.filter(|limits| limits.not_doors == 0))?.map(|doors| doors.into_iter().collect());
+            doors = match self.first(all.filter(|limits| limits.not_doors == 0)) {
+                Ok(doors) => doors.map(|doors| doors.into_iter().collect()),
+                // what is found without them stays
+                Err(NoRemoval::TooMany(_)) => None,
+                Err(reason) => return Err(reason),
+            };
         }
         Ok(Removal { blockers: blockers.into_iter().collect(), doors, is_least, tried: self.decided.len() })
     }
@@ -216,8 +254,8 @@ impl<D: FnMut(&BTreeSet<Blocker>) -> Decision> Trials<D> {
         if let Some(decision) = self.decided.get(gone) {
             return Ok(decision.clone());
         }
-        if self.decided.len() == MAX_TRIED {
-            return Err(NoRemoval::TooMany);
+        if self.decided.len() == self.most {
+            return Err(NoRemoval::TooMany(self.most));
         }
         let decision = (self.decide)(gone);
         if let Decision::Undecided(reason) = &decision {

@@ -7,7 +7,10 @@ use motion_lab_core::collision::{Checker, Collision as _, Problem, ProblemError,
 use motion_lab_core::configuration::{AnyConfiguration, Chart, Configuration, R2, Tn};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::num::greater;
-use motion_lab_core::planning::{CellDecomposition, CertifiedPath, LinePath, MARGIN, NoPath, Planner, length_bound};
+use motion_lab_core::planning::hybrid::{HybridSettings, NearGoal};
+use motion_lab_core::planning::{
+    CellDecomposition, CertifiedPath, LinePath, MARGIN, NoPath, Planner, cell_length_bound, length_bound,
+};
 use motion_lab_core::random::{Seed, Stream};
 use motion_lab_core::robots::{AnyRobot, Hitch, HitchArc, Reach, Robot, Rusty, RustyDisc};
 use motion_lab_core::sensors::BeamModel;
@@ -175,13 +178,24 @@ impl Task {
         }
     }
 
-    /// A length that no path of a rover undercuts, metres: of one that is larger by the tube, that keeps the clearance
-    /// which is said, and whose centre stays within the world's bounds. Infinity where there is no such path; `None`
-    /// for another robot, and where start or goal are no ends of one.
+    /// A length that no path undercuts, metres, of an arm radians: of a rover that is larger by the tube, and of any
+    /// robot that keeps the clearance which is said, and whose position stays within the world's bounds. A rover's is
+    /// [exact](length_bound()), another's comes from [cells](cell_length_bound). Infinity where there is no such path;
+    /// `None` where start or goal are no ends of one.
     pub fn length_bound(&self) -> Option<f64> {
-        let (disc, ends) = self.disc().ok()?;
         let task = Task { checker: CheckerName::EXACT, ..self.clone() };
-        length_bound(&task.problem(disc, ends, Seed(0)).ok()?)
+        if let Ok((disc, ends)) = self.disc() {
+            return length_bound(&task.problem(disc, ends, Seed(0)).ok()?);
+        }
+        let reach = match self.goal {
+            // as near as hybrid A* takes for the goal
+            AnyConfiguration::Hitch(goal) => {
+                let NearGoal { near, aligned, .. } = HybridSettings::default().around(goal);
+                &[near, near, aligned][..]
+            }
+            _ => &[],
+        };
+        cell_length_bound(&task.problem(self.robot, [self.start, self.goal], Seed(0)).ok()?, reach)
     }
 
     /// The disc that a rover is planned as, larger by the tube, and where its path begins and ends.

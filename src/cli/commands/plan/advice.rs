@@ -3,6 +3,9 @@
 use motion_lab_core::collision::ProblemError;
 use motion_lab_core::planning::NoPath;
 
+/// What to do where a bound by cells proves that there is none.
+pub(super) const NO_CELLS: &str = "--what-blocks says what to move; or choose another --to, or a smaller --clearance.";
+
 /// What to do where tangents and arcs prove that there is none.
 pub(super) const NO_TANGENTS: &str = "Choose another --to, or a smaller --tube or --clearance.";
 

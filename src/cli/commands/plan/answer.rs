@@ -1,12 +1,13 @@
 //! `PlanAnswer`, what came of planning.
 
-use crate::capture::{bounded, proven, unit};
+use crate::capture::{bounded, proven, unit, within_best};
 use motion_lab_core::planning::{Effort, NoPath};
+use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::export::{JsonNumber, json_seed};
 use motion_lab_sim::plans::{Counts, PathLengths, PlanAttempt, PlannerName, Task};
 use serde::Serialize;
 
-use super::advice::{NO_TANGENTS, next};
+use super::advice::{NO_CELLS, NO_TANGENTS, next};
 use super::blockers::BlockersAnswer;
 use super::exact::ExactAnswer;
 use crate::cli::support::words::counted;
@@ -65,6 +66,9 @@ pub struct PlanAnswer {
     /// For what the bound is where it is not the robot as it is.
     #[serde(skip)]
     larger: String,
+    /// What an infinite bound says, and what to do then.
+    #[serde(skip)]
+    unbounded: (&'static str, &'static str),
     /// The unit of the length.
     #[serde(skip)]
     unit: &'static str,
@@ -96,6 +100,10 @@ impl PlanAnswer {
             blockers: None,
             next: "",
             larger: larger(task),
+            unbounded: match task.robot {
+                AnyRobot::Rusty(_) => ("no tangents and arcs lead the disc from start to goal", NO_TANGENTS),
+                _ => ("cells proven blocked part the goal from the start within the world's bounds", NO_CELLS),
+            },
             unit: unit(&task.robot),
         }
     }
@@ -121,11 +129,15 @@ impl PlanAnswer {
 
     /// The same answer with a length that no path undercuts: where that is infinite there is none.
     pub fn bounded(self, bound: f64) -> Self {
+        // cells have proven as much, and said more
+        if self.answer == "none" {
+            return self;
+        }
         if self.solved || bound < f64::INFINITY {
             return PlanAnswer { length_bound: Some(JsonNumber(bound)), ..self };
         }
-        let reason = Some(format!("no path: no tangents and arcs lead the disc from start to goal{}", self.larger));
-        PlanAnswer { answer: "none", reason, next: NO_TANGENTS, checker: None, proven: None, ..self }
+        let reason = Some(format!("no path: {}{}", self.unbounded.0, self.larger));
+        PlanAnswer { answer: "none", reason, next: self.unbounded.1, checker: None, proven: None, ..self }
     }
 
     /// The same answer with what the planner has done.
@@ -165,7 +177,10 @@ impl PlanAnswer {
 
     /// The bound behind the length of a path, or behind the reason why none was found.
     pub fn bound_in_words(&self) -> String {
-        self.length_bound.map_or_else(String::new, |bound| format!("; {}{}", bounded(bound.0), self.larger))
+        let Some(bound) = self.length_bound else { return String::new() };
+        let near = self.length.and_then(|length| within_best(length.0, bound.0));
+        let near = near.map_or_else(String::new, |near| format!(": {near}"));
+        format!("; {}{}{near}", bounded(bound.0, self.unit), self.larger)
     }
 
     /// Prints the path in words.

@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// the path is printed. Where no path is found within the bound on iterations, where the start or the goal is in
 /// contact, or where a planner has searched all that it looks at, that is said, and the exit code is 4. Where
 /// cell-decomposition proves that there is no path, it is 7; --barrier writes the proof, and --what-blocks says what to
-/// move. Of a rover --bound says how short a path may be at all.
+/// move. --bound says how short a path may be at all.
 ///
 /// With -o the path goes to a file as JSON, with --script to an input script that plays it, with --record to the log of
 /// the run in which the script plays it, with --svg to a picture, with --gif to a film of the planner's growth. What
@@ -114,8 +114,9 @@ pub struct PlanArgs {
     /// the film of --gif stay as they are.
     #[arg(long, conflicts_with = "compare")]
     pub(super) shorten: bool,
-    /// Say a length that no path undercuts: that of the shortest path, by tangents and arcs, of a rover larger by
-    /// --tube and, if it is given, --clearance. Where there is no path at all it proves that, and the exit code is 7.
+    /// Say a length that no path undercuts, --tube and, if it is given, --clearance kept: of a rover that of the
+    /// shortest path, by tangents and arcs; of an arm or a car one that cells prove, which is shorter. Where there
+    /// is no path at all it proves that, and the exit code is 7.
     #[arg(long, conflicts_with = "compare")]
     pub(super) bound: bool,
     /// Print the result as JSON.

@@ -20,6 +20,9 @@ pub struct BlockersAnswer {
     tried: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
+    /// What to do with the things, and with the doors alone.
+    #[serde(skip)]
+    to_do: [String; 2],
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -33,6 +36,7 @@ impl BlockersAnswer {
         let entries = |blockers: Vec<Blocker>| blockers.into_iter().map(BlockerEntry::of).collect();
         match found {
             Ok(Removal { blockers, doors, is_least, tried }) => BlockersAnswer {
+                to_do: [&blockers[..], doors.as_deref().unwrap_or_default()].map(Removal::to_do),
                 things: Some(entries(blockers)),
                 least: Some(is_least),
                 doors: doors.map(entries),
@@ -40,7 +44,8 @@ impl BlockersAnswer {
                 error: None,
             },
             Err(reason) => {
-                BlockersAnswer { things: None, least: None, doors: None, tried: None, error: Some(reason.to_string()) }
+                let error = Some(reason.to_string());
+                BlockersAnswer { things: None, least: None, doors: None, tried: None, error, to_do: Default::default() }
             }
         }
     }
@@ -55,8 +60,9 @@ impl BlockersAnswer {
             (Some(true), _) => "; no fewer will do",
             _ => "; none of them can stay, and whether another set has fewer is not known",
         };
-        let alone = self.doors.as_ref().map(|doors| format!("\n             doors alone: {}", to_do(doors)));
-        format!("what blocks: there is a path if you {}{least}{}", to_do(things), alone.unwrap_or_default())
+        let [these, doors] = &self.to_do;
+        let alone = self.doors.as_ref().map(|_| format!("\n             doors alone: {doors}"));
+        format!("what blocks: there is a path if you {these}{least}{}", alone.unwrap_or_default())
     }
 }
 
@@ -69,15 +75,4 @@ impl BlockerEntry {
         };
         BlockerEntry { kind, name }
     }
-}
-
-/// What to do with things: `open "A's door" and take away "the post"`.
-fn to_do(things: &[BlockerEntry]) -> String {
-    let [doors, others]: [Vec<&BlockerEntry>; 2] =
-        [true, false].map(|is_door| things.iter().filter(|thing| (thing.kind == "door") == is_door).collect());
-    let list = |verb: &str, things: &[&BlockerEntry]| {
-        let names: Vec<_> = things.iter().map(|thing| format!("{:?}", thing.name)).collect();
-        (!names.is_empty()).then(|| format!("{verb} {}", names.join(", ")))
-    };
-    [list("open", &doors), list("take away", &others)].into_iter().flatten().collect::<Vec<_>>().join(" and ")
 }

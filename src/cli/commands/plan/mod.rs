@@ -22,7 +22,6 @@ use std::time::Instant;
 use crate::capture::{CaptureForm, PlanOutcome};
 use motion_lab_core::planning::NoPath;
 use motion_lab_core::random::Seed;
-use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::plans::{MAX_CLEARANCE, PathFile, PlanAttempt, PlannerName, Task};
 
 use crate::cli::support::console::note;
@@ -67,10 +66,6 @@ impl PlanArgs {
             return Err(Failure::usage(reason, "Leave out --checker, or --script and --record."));
         }
         let name = self.planner_for(&task)?;
-        if self.bound && !matches!(task.robot, AnyRobot::Rusty(_)) {
-            let reason = "--bound: only a rover's path has a bound, since it is a disc";
-            return Err(Failure::usage(reason.to_owned(), "Leave out --bound."));
-        }
         let targets = PlanTargets::of(&self)?;
         let begun = Instant::now();
         let mut attempt = match task::attempt(&task, name, Seed(self.seed))? {

@@ -68,11 +68,13 @@ pub fn words(door: &Door) -> String {
     format!("{} {}", if door.open { "close" } else { "open" }, door.name)
 }
 
-/// Asks for the door to be opened or closed, as one step to undo.
-pub fn toggle(world: &str, door: &Door, commands: &mut Vec<Command>) {
-    let change = if door.open { WorldChange::Close } else { WorldChange::Open }(door.name.clone());
+/// Asks for doors to be opened or closed, as one step to undo.
+pub fn toggle<'a>(world: &str, doors: impl IntoIterator<Item = &'a Door>, commands: &mut Vec<Command>) {
     commands.push(Command::from(TransportCommand::Checkpoint));
-    commands.push(Command::Run(WorldCommand { world: world.to_owned(), change }.into()));
+    for door in doors {
+        let change = if door.open { WorldChange::Close } else { WorldChange::Open }(door.name.clone());
+        commands.push(Command::Run(WorldCommand { world: world.to_owned(), change }.into()));
+    }
 }
 
 /// Shows a row with a link for each door.
@@ -94,7 +96,7 @@ pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
         match to_come(cockpit, door) {
             Some(true) => _ = ui.weak(format!("{} opens", door.name)),
             Some(false) => _ = ui.weak(format!("{} closes", door.name)),
-            None if ui.link(words(door)).clicked() => toggle(&world.name, door, commands),
+            None if ui.link(words(door)).clicked() => toggle(&world.name, [door], commands),
             None => {}
         }
     }

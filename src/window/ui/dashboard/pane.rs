@@ -251,7 +251,7 @@ pub fn door_clicked(
     let at = [f64::from(at.x), f64::from(at.y)];
     let Some(door) = doors::door_at(cockpit, fit, at, doors::reach(touch)) else { return false };
     if response.clicked() {
-        doors::toggle(&cockpit.world.name, door, commands);
+        doors::toggle(&cockpit.world.name, [door], commands);
     }
     response.clone().on_hover_cursor(CursorIcon::PointingHand).on_hover_text_at_pointer(doors::words(door));
     true

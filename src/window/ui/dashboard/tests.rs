@@ -52,9 +52,9 @@ fn robot<R: Robot>(name: &str, kind: &str, robot: &R, q: R::Configuration) -> Co
 }
 
 fn cockpit(world: &str, width: f64, height: f64, robot: CockpitRobot) -> Cockpit {
-    let bounds = Aabb { min: Point2::new(0.0, 0.0), max: Point2::new(width, height) };
-    let (world, atlas) = (Arc::new(Picture::new(world, bounds)), Arc::new(Atlas::new(World::empty(world, bounds))));
-    Cockpit { world, atlas, robots: vec![robot], crowd: None, doors: Vec::new(), waiting: false }
+    let still = World::empty(world, Aabb::new(Point2::new(0.0, 0.0), Point2::new(width, height)));
+    let (world, atlas) = (Arc::new(Picture::new(world, still.bounds)), Arc::new(Atlas::new(still.clone())));
+    Cockpit { world, atlas, standing: still.into(), robots: vec![robot], crowd: None, doors: vec![], waiting: false }
 }
 
 fn model() -> Dashboard {

@@ -8,6 +8,7 @@ use motion_lab_core::geometry::{Footprint, Point2};
 use motion_lab_core::picture::{Gait, Item, Picture, RobotDrawing, robot};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::AnyRobot;
+use motion_lab_core::worlds::World;
 use motion_lab_sim::atlas::Atlas;
 use motion_lab_sim::simulation::SensorView;
 
@@ -104,6 +105,8 @@ pub struct Cockpit {
     pub world: Arc<Picture>,
     /// The world with its names, shown on demand.
     pub atlas: Arc<Atlas>,
+    /// The world as it stands, with its residents as they start.
+    pub standing: Arc<World>,
     /// Its robots; in a world with a crowd, the one that is picked.
     pub robots: Vec<CockpitRobot>,
     /// All its robots, where they are many.

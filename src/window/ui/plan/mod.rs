@@ -1,5 +1,6 @@
 //! Plan: a planner at work, in the workspace and in the configuration space.
 
+mod blockers;
 pub(super) mod controls;
 mod exchange;
 mod paces;

@@ -2,6 +2,7 @@
 
 use bevy_egui::egui::{ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
 
+use super::blockers::what_to_move;
 use super::state::{PlanStage, PlanState};
 use crate::window::ui::anatomy::view::{chooser, exact};
 use crate::window::ui::number::{NumberInput, TypedKind};
@@ -9,7 +10,7 @@ use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::headline;
 use crate::window::ui::paint::plate::refusal;
-use crate::window::ui::{Command, FrameColours, SessionCommand, UiState};
+use crate::window::ui::{Command, Dashboard, FrameColours, SessionCommand, UiState};
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg};
 use motion_lab_core::picture::{Role, in_signs};
@@ -17,26 +18,34 @@ use motion_lab_core::planning::NoPath;
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World;
-use motion_lab_sim::capture::{bounded, judged_words, proven, unit};
+use motion_lab_sim::capture::{bounded, judged_words, proven, unit, within_best};
 use motion_lab_sim::plans::{PathLengths, PlannerName, TUBE, Task};
 
 /// Width of a chooser, points.
 const WIDTH: f32 = 180.0;
 
+/// Where a world is that is not the book's own.
+const IN_ATLAS: &str = ", in the atlas";
+const IN_RUN: &str = ", in the run";
+const CHANGED: &str = ", changed";
+
+/// The most residents of a world to choose from.
+const MAX_RESIDENTS: usize = 20;
+
 /// Shows the panel: what is planned and by whom, and what came of it.
-pub fn panel(ui: &mut Ui, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
-    choices(ui, state);
+pub fn panel(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
+    choices(ui, model, state);
     ui.add_space(4.0);
     outcome(ui, look, &state.plan);
     ui.add_space(4.0);
-    path_buttons(ui, look, &mut state.plan, commands);
+    path_buttons(ui, model, look, &mut state.plan, commands);
     ui.add_space(4.0);
     ends(ui, state, false);
 }
 
 /// Shows what is planned, and by whom.
-pub fn choices(ui: &mut Ui, state: &mut UiState) {
-    task_choice(ui, state);
+pub fn choices(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
+    task_choice(ui, model, state);
     let plan = &mut state.plan;
     planner_choice(ui, plan);
     if let AnyRobot::Rusty(_) = plan.task().robot {
@@ -53,8 +62,15 @@ pub fn outcome(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
     leave_points(ui, plan);
 }
 
-/// Shows what can be done with the path.
-pub fn path_buttons(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState, commands: &mut Vec<Command>) {
+/// Shows what can be done with the path, and where there is none what to move.
+pub fn path_buttons(
+    ui: &mut Ui,
+    model: &Dashboard,
+    look: &FrameColours,
+    plan: &mut PlanState,
+    commands: &mut Vec<Command>,
+) {
+    what_to_move(ui, look, model, plan, commands);
     let has_path = matches!(plan.stage(), PlanStage::Solved);
     ui.horizontal_wrapped(|ui| {
         let play = LabButton::new("Play it").enabled(has_path).show(ui, look);
@@ -84,44 +100,57 @@ pub fn ends(ui: &mut Ui, state: &mut UiState, is_open: bool) {
     }
 }
 
-/// The robots to plan for: the residents of the built-in worlds and of the atlas's, a car with its trailer and without.
-fn tasks(atlas: &World) -> Vec<(String, AnyRobot, AnyConfiguration, World, bool)> {
+/// A robot to plan for, where it starts, its world, and where that world is, in words.
+type PlanChoice = (String, AnyRobot, AnyConfiguration, World, &'static str);
+
+/// The robots to plan for: residents of the built-in worlds, of the atlas's and of the run's as they are now, a car
+/// with its trailer and without.
+fn tasks(atlas: &World, model: &Dashboard) -> Vec<PlanChoice> {
     let books = World::built_in_names().into_iter().filter_map(World::built_in);
-    let mut worlds: Vec<(World, bool)> = books.map(|world| (world, true)).collect();
-    if worlds.iter().all(|(world, _)| world != atlas) {
-        worlds.push((atlas.clone(), false));
+    let mut worlds: Vec<(World, &str)> = books.map(|world| (world, "")).collect();
+    let in_run = model.cockpits.iter().map(|cockpit| (&*cockpit.standing, IN_RUN));
+    for (world, place) in in_run.chain([(atlas, IN_ATLAS)]) {
+        if worlds.iter().all(|(other, _)| other != world) {
+            worlds.push((world.clone(), place));
+        }
     }
     let mut choices = Vec::new();
-    for (world, is_books) in worlds {
-        for resident in &world.robots {
+    for (world, place) in worlds {
+        for resident in world.robots.iter().take(MAX_RESIDENTS) {
             let Some((robot, q)) = AnyRobot::of_resident(resident) else { continue };
-            choices.push((resident.name.clone(), robot, q, world.clone(), is_books));
+            choices.push((resident.name.clone(), robot, q, world.clone(), place));
             if let (AnyRobot::Hitch(car), AnyConfiguration::Hitch(at)) = (robot, q) {
                 let (car, trailer) = match at.trailer {
                     None => (car.with_trailer(), Some(at.body.theta)),
                     Some(_) => (car.without_trailer(), None),
                 };
                 let q = AnyConfiguration::Hitch(HitchCfg { body: at.body, trailer });
-                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, world.clone(), is_books));
+                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, world.clone(), place));
             }
         }
     }
     choices
 }
 
-/// A choice in words: `Hitch with its trailer, Lot`; the atlas's world may have a book's name.
-fn named(name: &str, robot: &AnyRobot, world: &World, is_books: bool) -> String {
+/// A choice in words: `Hitch with its trailer, Lot`; the atlas's world and the run's may have a book's name.
+fn named(name: &str, robot: &AnyRobot, world: &World, place: &str) -> String {
     let trailer =
         if matches!(robot, AnyRobot::Hitch(car) if car.hitch_len.is_some()) { " with its trailer" } else { "" };
-    format!("{name}{trailer}, {}{}", world.name, if is_books { "" } else { ", in the atlas" })
+    format!("{name}{trailer}, {}{place}", world.name)
 }
 
-fn task_choice(ui: &mut Ui, state: &mut UiState) {
+fn task_choice(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
     let present = state.plan.task();
-    let shown = named(&present.name, &present.robot, &present.world, state.plan.is_in_books_world());
+    let place = match &*present.world {
+        _ if state.plan.is_in_books_world() => "",
+        world if world == state.atlas.world() => IN_ATLAS,
+        world if model.cockpits.iter().any(|cockpit| *cockpit.standing == *world) => IN_RUN,
+        _ => CHANGED,
+    };
+    let shown = named(&present.name, &present.robot, &present.world, place);
     chooser(ui, "robot", ComboBox::from_id_salt("robot").width(WIDTH).selected_text(shown.as_str()), |ui| {
-        for (name, robot, q, world, is_books) in tasks(state.atlas.world()) {
-            let words = named(&name, &robot, &world, is_books);
+        for (name, robot, q, world, place) in tasks(state.atlas.world(), model) {
+            let words = named(&name, &robot, &world, place);
             if ui.selectable_label(words == shown, words).clicked() {
                 let goal = goal_for(&robot, &world, q);
                 state.plan.take(Task::new(name, robot, world, [q, goal]));
@@ -202,7 +231,10 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
                 headline(ui, &format!("path: {legs}, {length:.3} {unit}"), look.colour(Role::Text));
                 ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));
                 if let Some(bound) = plan.length_bound() {
-                    ui.label(monospace(bounded(bound)));
+                    ui.label(monospace(bounded(bound, unit)));
+                    if let Some(near) = within_best(length, bound) {
+                        ui.label(monospace(near));
+                    }
                 }
             }
             if plan.improves() {

@@ -100,7 +100,7 @@ pub fn plan_view(
                 }
                 ui.horizontal_wrapped(|ui| controls(ui, look, &mut state.plan));
                 next_hint(ui, words, look, state);
-                panel(ui, look, state, commands);
+                panel(ui, model, look, state, commands);
                 crate::window::ui::menu::foot(ui, words, look, state);
             });
         });
@@ -115,7 +115,7 @@ pub fn plan_view(
                 scroll.show(ui, |ui| {
                     two_columns(ui, 0.5 * (under.width() - 20.0), |ui, i| match i {
                         0 => outcome(ui, look, &state.plan),
-                        _ => path_buttons(ui, look, &mut state.plan, commands),
+                        _ => path_buttons(ui, model, look, &mut state.plan, commands),
                     });
                 });
             }
@@ -123,11 +123,11 @@ pub fn plan_view(
         ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
             ScrollArea::vertical().id_salt("plan").auto_shrink(false).show(ui, |ui| {
                 if is_roomy {
-                    choices(ui, state);
+                    choices(ui, model, state);
                     ui.add_space(4.0);
                     ends(ui, state, true);
                 } else {
-                    panel(ui, look, state, commands);
+                    panel(ui, model, look, state, commands);
                 }
             });
         });

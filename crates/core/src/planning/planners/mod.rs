@@ -2,7 +2,7 @@
 
 mod bug1;
 mod bug2;
-mod cell_decomposition;
+mod cells;
 mod disc;
 mod frontier;
 mod grid_search;
@@ -17,7 +17,7 @@ mod walker;
 
 pub use bug1::Bug1;
 pub use bug2::Bug2;
-pub use cell_decomposition::CellDecomposition;
+pub use cells::{CellDecomposition, cell_length_bound};
 pub use grid_search::GridSearch;
 pub use potential_field::{FieldSettings, PotentialField};
 pub use prm::Prm;

@@ -39,7 +39,7 @@ fn the_least_set_is_that_of_all_subsets() {
             let stands = barriers.iter().find(|barrier| barrier.is_disjoint(gone));
             stands.map_or(Decision::Path, |barrier| Decision::Blocked(barrier.clone()))
         };
-        let removal = Trials::new(decide).least().unwrap();
+        let removal = Trials::new(MAX_TRIED, decide).least().unwrap();
         let subsets = (0..1_usize << count)
             .map(|bits| (0..count).filter(|i| bits >> i & 1 == 1).map(thing).collect::<BTreeSet<Blocker>>());
         let enough: Vec<_> = subsets.filter(|set| suffices(&barriers, set)).collect();
@@ -74,15 +74,15 @@ fn what_stays_undecided_makes_no_claim_to_be_least() {
         _ if gone.contains(&post) => Decision::Path,
         _ => Decision::Undecided(NoPath::Unsuited("a narrow gap")),
     };
-    let removal = Trials::new(decide).least().unwrap();
+    let removal = Trials::new(MAX_TRIED, decide).least().unwrap();
     assert_eq!((removal.blockers, removal.is_least), (vec![post], false));
     let never = |_: &BTreeSet<Blocker>| Decision::Undecided(NoPath::Unsuited("a car"));
-    assert_eq!(Trials::new(never).least(), Err(NoRemoval::Undecided(NoPath::Unsuited("a car"))));
+    assert_eq!(Trials::new(MAX_TRIED, never).least(), Err(NoRemoval::Undecided(NoPath::Unsuited("a car"))));
     let nothing = |_: &BTreeSet<Blocker>| Decision::Blocked(BTreeSet::new());
-    assert_eq!(Trials::new(nothing).least(), Err(NoRemoval::Nothing));
+    assert_eq!(Trials::new(MAX_TRIED, nothing).least(), Err(NoRemoval::Nothing));
     let endless =
         |gone: &BTreeSet<Blocker>| Decision::Blocked(BTreeSet::from([thing(3 + gone.len()), thing(90 + gone.len())]));
-    assert_eq!(Trials::new(endless).least(), Err(NoRemoval::TooMany));
+    assert_eq!(Trials::new(MAX_TRIED, endless).least(), Err(NoRemoval::TooMany(MAX_TRIED)));
 }
 
 fn rover(world: World, [from, to]: [[f64; 2]; 2]) -> Task {

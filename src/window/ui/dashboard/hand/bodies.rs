@@ -93,7 +93,7 @@ pub fn bodies<'a>(
                 doors::door_at(cockpit, fit, [at.x, at.y].map(f64::from), reach).filter(|_| off > 0.0)
             });
             if let Some(door) = door.filter(|_| response.clicked()) {
-                doors::toggle(&cockpit.world.name, door, commands);
+                doors::toggle(&cockpit.world.name, [door], commands);
             } else if response.clicked() || response.is_pointer_button_down_on() {
                 pressed = Some((robot, response.clicked()));
             }
