@@ -8,6 +8,7 @@
 //! row once with its checks, such as that lab and peer agree, and times nothing.
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::print_stdout, clippy::disallowed_methods)]
 
+mod barriers;
 mod contest;
 mod crowd;
 mod edges;
@@ -102,6 +103,7 @@ fn main() {
     queries::rows(&mut table);
     edges::rows(&mut table);
     plans::rows(&mut table);
+    barriers::rows(&mut table);
     runs::rows(&mut table);
     start::rows(&mut table);
     crowd::rows(&mut table);
