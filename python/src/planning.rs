@@ -51,8 +51,8 @@ pub fn planner_names() -> Vec<&'static str> {
 ///
 /// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
 /// samples, if start and goal have it, else 0. `budget` is the greatest number of iterations, 100,000 if left out
-/// (20,000 for `hybrid-a-star`); with it `rrt-star` and `informed-rrt-star` go on to there and shorten their path.
-/// `tube` is how much larger a disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
+/// (20,000 for `hybrid-a-star`); with it `rrt-star`, `informed-rrt-star` and `prm` go on to there and shorten their
+/// path. `tube` is how much larger a disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
 /// `shorten` shortens the path, as certified as before, by shortcuts of that seed and cut corners; a car's it leaves as
 /// it is.
 ///

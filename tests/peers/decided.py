@@ -32,7 +32,7 @@ from certificate import require
 # By how much a passage is narrower than the robot (first) and wider (second) at most where cells decide nothing, metres.
 TIGHT = {"rover": (0.1, 0.15), "arm": (0.1, 0.1), "arm3": (0.25, 0.25), "car": (0.35, 0.7), "trailer": (0.35, 0.7)}
 # The share of problems with walls or posts so thin, or gaps so near the robot's width, that proofs need fine cells.
-HARD = 0.15
+HARD = 0.1
 # The rover, and the car: its boxes behind and ahead of the rear axle and to either side.
 RADIUS, WIDTH, WHEELBASE, HITCH = 0.11, 1.7, 2.5, 2.0
 BODY, TRAILER = (-0.7, 3.2, WIDTH / 2), (-2.8, -1.0, 0.75)
@@ -72,11 +72,11 @@ def yard(kind, rng):
         ends = [(*q, 0.0) for q in ends]
     else:
         size, wide, hard = (24.0, 10.0), WIDTH, rng.random() < HARD
-        thickness = rng.uniform(0.5, 4.0) if hard else rng.uniform(2.5, 4.0)
-        gap = rng.uniform(0.4, 3.4) if hard else rng.choice((rng.uniform(0.2, 1.0), rng.uniform(2.4, 4.0)))
+        thickness = rng.uniform(0.5, 4.0) if hard else rng.uniform(5.0, 7.0)
+        gap = rng.uniform(0.4, 3.4) if hard else rng.choice((rng.uniform(0.2, 0.6), rng.uniform(2.6, 4.0)))
         texts, shapes, least = walls(rng, size, [[gap]], thickness, 12.0, 14.0)
         trailer = (0.0,) if kind == "trailer" else ()
-        ends = [(x, rng.uniform(3.5, 6.5), 0.0, *trailer) for x in (4.0, 19.0)]
+        ends = [(x, rng.uniform(3.5, 6.5), 0.0, *trailer) for x in (4.0, 20.0)]
         robot = {"kind": "hitch"}
     world = f'World(version: 1, name: "yard", bounds: (min: (0, 0), max: {size}), obstacles: [{", ".join(texts)}])'
     return {"world": world, "shapes": shapes, "robot": robot, "name": robot["kind"], "ends": ends, "spare": least - wide}
@@ -86,9 +86,10 @@ def arm(kind, rng):
     """An arm about whose base posts stand. A post that is nearer than the elbow ends the turns of the first link on either side of it; past one
     that is not the arm turns with its other links folded back."""
     lengths = [1.0, rng.uniform(0.2, 0.35)] + [rng.uniform(0.1, 0.2)] * (kind == "arm3")
-    thick, count, hard = rng.uniform(0.02, 0.05), rng.randint(1, 4), rng.random() < HARD
+    thick, hard = rng.uniform(0.02, 0.05), rng.random() < HARD
+    count = rng.randint(1, 4 if hard else 3)
     turns = [2 * math.pi * (k + rng.uniform(-0.1, 0.1)) / count for k in range(count)]
-    post = lambda turn: (turn, rng.uniform(0.06, 0.12), rng.uniform(0.45, 1.5)) if hard else (turn, rng.uniform(0.2, 0.25), rng.uniform(0.4, 0.6))
+    post = lambda turn: (turn, rng.uniform(0.06, 0.12), rng.uniform(0.45, 1.5)) if hard else (turn, rng.uniform(0.28, 0.33), rng.uniform(0.45, 0.6))
     posts = [post(turn) for turn in turns]
     at = [(far * math.cos(turn), far * math.sin(turn)) for turn, _, far in posts]
     texts = [f'(name: "post {k}", shape: Disc(center: ({x!r}, {y!r}), radius: {posts[k][1]!r}))' for k, (x, y) in enumerate(at)]

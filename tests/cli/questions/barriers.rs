@@ -85,6 +85,15 @@ fn a_barrier_says_robot_world_ends_and_what_blocks_each_cell() {
         assert_eq!(cell["name"].as_str(), scene.obstacle_name(*id));
         assert!(cell["part"] == 0 && cell["depth"].as_f64() > cell["bound"].as_f64(), "{cell}");
     }
+    // the picture says how many cells there are
+    plan(
+        folder.path(),
+        &court(0.0),
+        &[&OUT_OF_THE_COURT[..], &["--svg", "barrier.svg", "--barrier", "b.json"]].concat(),
+    );
+    let picture = fs::read_to_string(folder.path().join("barrier.svg")).unwrap();
+    let count = found["cells"].as_array().unwrap().len();
+    assert!(picture.contains(&format!("no path: {count} cells proven blocked part the two")), "no caption");
     // without the tube the rover is itself, and its proof another
     let plain = barrier(folder.path(), &court(0.0), &[&OUT_OF_THE_COURT[..], &["--tube", "0"]].concat());
     assert_eq!((plain["robot"]["radius"].as_f64(), &plain["tube"]), (Some(own), &value!(0.0)));

@@ -35,7 +35,7 @@ fn a_report_tells_the_runs_of_each_value_apart() {
     let all = fs::read_to_string(at.join("all.csv")).unwrap();
     let rows = rows(&all);
     for (axis, values) in
-        [("planner", &["rrt-connect", "prm"][..]), ("planner.iterations", &["3", "100000"]), ("seed", &["7", "8", "9"])]
+        [("planner", &["rrt-connect", "prm"][..]), ("planner.iterations", &["3", "1000"]), ("seed", &["7", "8", "9"])]
     {
         let table = table(&page, &format!("By {axis}"));
         assert_eq!(table[0][..4], [axis, "runs", "solved", "failed"].map(str::to_owned));

@@ -1,6 +1,6 @@
 //! Lengths of paths, compared with those worked out by hand.
 
-use motion_lab_core::num::atan2;
+use motion_lab_core::num::{atan2, lesser};
 use motion_lab_core::planning::Metric;
 
 use super::*;
@@ -36,17 +36,45 @@ fn the_visibility_graph_takes_the_shortest_way() {
     }
 }
 
-#[test]
-fn rrt_star_tends_to_the_shortest_way_and_never_gets_longer() {
-    let mut planner = RrtStar::new(round_an_end());
+/// The lengths of a planner's path as it is stepped so often.
+fn lengths(mut planner: impl Planner<RustyDisc>, steps: usize) -> Vec<f64> {
     let mut lengths = Vec::new();
-    for _ in 0..4000 {
+    for _ in 0..steps {
         planner.step();
         lengths.extend(planner.path().map(length));
     }
     assert!(lengths.windows(2).all(|pair| pair[1] <= pair[0]), "a path got longer");
-    let (first, last, shortest) = (lengths[0], lengths[lengths.len() - 1], by_hand());
-    assert!(last >= shortest && last < 1.05 * shortest && last < first, "{first} {last} {shortest}");
+    lengths
+}
+
+#[test]
+fn rrt_star_and_prm_tend_to_the_shortest_way_and_never_get_longer() {
+    for lengths in [lengths(RrtStar::new(round_an_end()), 4000), lengths(Prm::new(round_an_end()), 4000)] {
+        let (first, last, shortest) = (lengths[0], lengths[lengths.len() - 1], by_hand());
+        assert!(last >= shortest && last < 1.05 * shortest && last < first, "{first} {last} {shortest}");
+    }
+}
+
+#[test]
+fn a_roadmap_s_path_is_its_shortest_way_whenever_that_is_looked_for() {
+    // by relaxing each of the roadmap's edges again and again (Bellman, 1958; Ford, 1956)
+    let mut planner = Prm::new(round_an_end());
+    for _ in 0..150 {
+        planner.step();
+    }
+    let nodes = planner.growth().nodes();
+    let mut lengths = vec![f64::INFINITY; nodes.len()];
+    lengths[0] = 0.0;
+    let metric = Metric::unit(&nodes[0].at);
+    for _ in 0..nodes.len() {
+        for [a, b] in planner.growth().edges() {
+            let length = metric.distance(&nodes[a].at, &nodes[b].at);
+            lengths[a] = lesser(lengths[a], lengths[b] + length);
+            lengths[b] = lesser(lengths[b], lengths[a] + length);
+        }
+    }
+    let found = length(planner.path().unwrap());
+    assert!((found - lengths[1]).abs() < 1e-9, "{found} {}", lengths[1]);
 }
 
 #[test]

@@ -82,7 +82,7 @@ impl PlannerName {
 
     /// Whether it goes on to shorten a path that it has.
     pub const fn improves(self) -> bool {
-        matches!(self, PlannerName::RrtStar | PlannerName::InformedRrtStar)
+        matches!(self, PlannerName::RrtStar | PlannerName::InformedRrtStar | PlannerName::Prm)
     }
 
     /// The lab's planners, in the order of the lists. [`Planners`](super::Planners) has those of a program's own too.

@@ -63,9 +63,9 @@ pub struct PlanArgs {
     /// The seed of the planner's samples, and of the run that plays the path.
     #[arg(long, default_value_t = 2005, conflicts_with = "compare")]
     pub(super) seed: u64,
-    /// The greatest number of iterations. With it rrt-star and informed-rrt-star go on to that number and shorten their
-    /// path, in a comparison too; without it the first path is taken. [default: 20000 for hybrid-a-star, 100000 for any
-    /// other planner]
+    /// The greatest number of iterations. With it rrt-star, informed-rrt-star and prm go on to that number and shorten
+    /// their path, in a comparison too; without it the first path is taken. [default: 20000 for hybrid-a-star, 100000
+    /// for any other planner]
     #[arg(long, value_name = "N")]
     pub(super) iterations: Option<u64>,
     /// A rover is planned this much larger, metres, so that its script may stray from the path by as much: 0 to 1.

@@ -2,16 +2,18 @@
 
 use crate::collision::Problem;
 use crate::configuration::{Chart, Configuration};
-use crate::planning::{Metric, Nearest, Neighbour, Planner, Queue, Search};
+use crate::planning::{Metric, Nearest, Neighbour, Planner, Progress, Queue, Search};
 use crate::robots::Robot;
 
 /// The number of neighbours that a new node is joined to, where the edges are free.
 const NEIGHBOURS: usize = 10;
 
 /// A probabilistic roadmap (Kavraki, Svestka, Latombe and Overmars, 1996) that is built until it joins the start to the
-/// goal: each free sample is joined to its nearest neighbours. The path is the roadmap's shortest.
+/// goal: each free sample is joined to its nearest neighbours. The path is the roadmap's shortest. Stepped on, the
+/// roadmap goes on to grow, and its shortest way is taken where it is shorter than the path.
 ///
-/// An iteration draws a sample and asks about at most ten edges. The start and the goal are nodes 0 and 1.
+/// An iteration draws a sample and asks about at most ten edges. The start and the goal are nodes 0 and 1. Once there
+/// is a path a shorter one is looked for whenever the roadmap has a hundredth more nodes, and at least one.
 #[derive(Clone, Debug)]
 pub struct Prm<R: Robot> {
     search: Search<R>,
@@ -20,6 +22,10 @@ pub struct Prm<R: Robot> {
     roads: Vec<Vec<Neighbour>>,
     /// A node of the same component with a lower number, or itself.
     components: Vec<usize>,
+    /// The length of the path, by the metric.
+    cost: f64,
+    /// The number of nodes when the shortest way was last looked for.
+    searched: usize,
 }
 
 impl<R: Robot<Configuration: Chart>> Prm<R> {
@@ -33,7 +39,8 @@ impl<R: Robot<Configuration: Chart>> Prm<R> {
     pub fn with_metric(problem: Problem<R>, metric: Metric) -> Self {
         let near = Nearest::new(metric);
         let ends = [problem.start(), problem.goal()].map(|q| q.in_chart());
-        let mut planner = Prm { search: Search::new(problem), near, roads: Vec::new(), components: Vec::new() };
+        let (search, cost) = (Search::new(problem), f64::INFINITY);
+        let mut planner = Prm { search, near, roads: Vec::new(), components: Vec::new(), cost, searched: 0 };
         for end in ends {
             planner.place(end);
         }
@@ -65,8 +72,8 @@ impl<R: Robot<Configuration: Chart>> Prm<R> {
         node
     }
 
-    /// The nodes of the roadmap's shortest way from the start to the goal (Dijkstra, 1959).
-    fn shortest(&self) -> Vec<usize> {
+    /// The nodes of the roadmap's shortest way from the start to the goal (Dijkstra, 1959), and its length.
+    fn shortest(&self) -> (Vec<usize>, f64) {
         let mut costs = vec![f64::INFINITY; self.roads.len()];
         let mut before = vec![0; self.roads.len()];
         let mut open = Queue::new();
@@ -86,7 +93,16 @@ impl<R: Robot<Configuration: Chart>> Prm<R> {
             nodes.push(before[nodes[nodes.len() - 1]]);
         }
         nodes.reverse();
-        nodes
+        (nodes, costs[1])
+    }
+
+    /// Takes the roadmap's shortest way where it is shorter than the path.
+    fn improve(&mut self) {
+        self.searched = self.roads.len();
+        let (nodes, cost) = self.shortest();
+        if cost < self.cost && self.search.take(&nodes) {
+            self.cost = cost;
+        }
     }
 }
 
@@ -112,8 +128,15 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Prm<R> {
                 self.place(sample);
             }
         }
-        if self.component(0) == self.component(1) {
-            self.search.take(&self.shortest());
+        let is_due = self.cost == f64::INFINITY || self.roads.len() > self.searched + self.searched / 100;
+        if is_due && self.component(0) == self.component(1) {
+            self.improve();
         }
+    }
+
+    fn step(&mut self) -> Progress {
+        self.search.growth.begin_iteration();
+        self.advance();
+        self.search.progress()
     }
 }
