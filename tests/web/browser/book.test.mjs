@@ -72,6 +72,8 @@ test("a part of a program ends with its paragraph or its block", () => {
 });
 
 lab("nothing of the lab is loaded before a figure is touched, and the first view weighs at most 100 kB", "/", async ({ page }) => {
+  // the page that was open may still be loading the lab
+  await page.goto("about:blank");
   const loaded = [];
   page.on("response", async (response) => loaded.push({ url: response.url(), bytes: Number(response.headers()["content-length"]) }));
   await page.goto(`${origin()}/book.html`);

@@ -148,7 +148,7 @@ fn task_choice(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
         _ => CHANGED,
     };
     let shown = named(&present.name, &present.robot, &present.world, place);
-    chooser(ui, "robot", ComboBox::from_id_salt("robot").width(WIDTH).selected_text(shown.as_str()), |ui| {
+    chooser(ui, "robot", ComboBox::from_id_salt("robot").width(WIDTH).truncate().selected_text(shown.as_str()), |ui| {
         for (name, robot, q, world, place) in tasks(state.atlas.world(), model) {
             let words = named(&name, &robot, &world, place);
             if ui.selectable_label(words == shown, words).clicked() {
