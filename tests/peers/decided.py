@@ -148,7 +148,7 @@ def joined(places, problem, reach):
 
 
 def near(a, b, reach, lengths):
-    """Whether two configurations differ by no more than this in each coordinate, of which so many are lengths, and then angles."""
+    """Whether two configurations differ by no more than this in each coordinate, of which the first `lengths` are lengths, the others angles."""
     off = [x - y if i < lengths else (x - y + math.pi) % (2 * math.pi) - math.pi for i, (x, y) in enumerate(zip(a, b))]
     return all(abs(d) <= r for d, r in zip(off, reach))
 

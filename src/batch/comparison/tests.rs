@@ -42,7 +42,7 @@ fn the_lengths_of_a_path_fall_and_end_with_the_attempts_own() {
         let cost = PathCost { iterations: first.effort.iterations, length: first.path.as_ref().unwrap().length };
         assert_eq!((first.costs.as_slice(), attempt.costs[0]), (&[cost][..], cost));
     }
-    // so many had a path by then: none before the first, all at the end
+    // the number that had a path by then: none before the first, all at the end
     let firsts: Vec<u64> = attempts[..3].iter().map(|attempt| attempt.costs[0].iterations).collect();
     let within = |iterations| PlannerComparison::solved_within(&attempts, PlannerName::RrtStar, iterations);
     let (least, most) = (*firsts.iter().min().unwrap(), *firsts.iter().max().unwrap());

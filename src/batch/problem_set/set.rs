@@ -17,7 +17,7 @@ use super::text::{EndsText, GeneratedText, ScenarioText, SetText};
 /// Largest number of problems.
 const MAX_PROBLEMS: u64 = 10_000_000;
 
-/// How many problems of a set are looked at for one that there is.
+/// The number of a set's problems that are tried for one that there is.
 const MAX_LOOKED: u64 = 1_000;
 
 /// Problems by their numbers, which are made when they are asked for: each is a function of the set and its number.

@@ -19,7 +19,7 @@ pub(super) enum ProblemSource {
     Own(Box<Task>),
     /// Their ends are given.
     Ends { place: ProblemPlace, starts: Vec<Vec<f64>>, goals: Vec<Vec<f64>>, crossed: bool },
-    /// They are a scenario's, each cell of so many metres.
+    /// They are a scenario's, with the side of its cells, metres.
     Scenario { place: ProblemPlace, scenario: Arc<Scenario>, scale: f64 },
     /// They are made.
     Generated { generator: ProblemGenerator, seed: Seed, kind: &'static RobotKind, count: u64 },

@@ -109,7 +109,7 @@ impl Task {
         self.what_blocks_within(MAX_TRIED)
     }
 
-    /// As [`what_blocks`](Self::what_blocks), with no more than so many sets planned without.
+    /// As [`what_blocks`](Self::what_blocks), with at most this number of sets planned without.
     ///
     /// # Errors
     /// Those of `what_blocks`.
@@ -187,8 +187,8 @@ fn blocker(world: &World, name: &str) -> Option<Blocker> {
 /// The sets that were tried, and the barriers that were found: every set that helps has a thing of each.
 struct Trials<D> {
     decide: D,
-    /// How many sets are planned without at most.
-    most: usize,
+    /// The greatest number of sets that are planned without.
+    max_sets: usize,
     decided: BTreeMap<BTreeSet<Blocker>, Decision>,
     undecided: Option<NoPath>,
 }
@@ -213,8 +213,8 @@ impl SetLimits {
 }
 
 impl<D: FnMut(&BTreeSet<Blocker>) -> Decision> Trials<D> {
-    fn new(most: usize, decide: D) -> Self {
-        Trials { decide, most, decided: BTreeMap::new(), undecided: None }
+    fn new(max_sets: usize, decide: D) -> Self {
+        Trials { decide, max_sets, decided: BTreeMap::new(), undecided: None }
     }
 
     fn least(mut self) -> Result<Removal, NoRemoval> {
@@ -254,8 +254,8 @@ impl<D: FnMut(&BTreeSet<Blocker>) -> Decision> Trials<D> {
         if let Some(decision) = self.decided.get(gone) {
             return Ok(decision.clone());
         }
-        if self.decided.len() == self.most {
-            return Err(NoRemoval::TooMany(self.most));
+        if self.decided.len() == self.max_sets {
+            return Err(NoRemoval::TooMany(self.max_sets));
         }
         let decision = (self.decide)(gone);
         if let Decision::Undecided(reason) = &decision {

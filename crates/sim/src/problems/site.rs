@@ -59,7 +59,7 @@ impl ProblemSite {
         let is_within =
             |p: &AnyConfiguration| self.world.check_position(self.kind.name, "end", &p.coordinates()).is_ok();
         let footprint = robot.footprint(&q);
-        // contact is told sooner than a distance
+        // contact is decided sooner than a distance
         let is_free = is_within(&q) && !self.scene.intersects(&footprint);
         (is_free && self.scene.distance(&footprint) > END_CLEARANCE).then_some(q)
     }

@@ -3,13 +3,12 @@
 use bevy_egui::egui::Ui;
 
 use super::state::{PlanStage, PlanState};
+use crate::window::ui::dashboard::doors;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::plate::refusal;
 use crate::window::ui::{Command, Dashboard, FrameColours};
 use motion_lab_core::planning::NoPath;
 use motion_lab_sim::plans::{Blocker, Removal};
-
-use crate::window::ui::dashboard::doors;
 
 /// Shows the button that asks, and then what came of it.
 pub fn what_to_move(

@@ -1,5 +1,7 @@
 //! The panel beside the papers: what is planned, by whom, and what came of it.
 
+use std::sync::Arc;
+
 use bevy_egui::egui::{ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
 
 use super::blockers::what_to_move;
@@ -101,31 +103,31 @@ pub fn ends(ui: &mut Ui, state: &mut UiState, is_open: bool) {
 }
 
 /// A robot to plan for, where it starts, its world, and where that world is, in words.
-type PlanChoice = (String, AnyRobot, AnyConfiguration, World, &'static str);
+type PlanChoice = (String, AnyRobot, AnyConfiguration, Arc<World>, &'static str);
 
 /// The robots to plan for: residents of the built-in worlds, of the atlas's and of the run's as they are now, a car
 /// with its trailer and without.
 fn tasks(atlas: &World, model: &Dashboard) -> Vec<PlanChoice> {
     let books = World::built_in_names().into_iter().filter_map(World::built_in);
-    let mut worlds: Vec<(World, &str)> = books.map(|world| (world, "")).collect();
-    let in_run = model.cockpits.iter().map(|cockpit| (&*cockpit.standing, IN_RUN));
-    for (world, place) in in_run.chain([(atlas, IN_ATLAS)]) {
-        if worlds.iter().all(|(other, _)| other != world) {
-            worlds.push((world.clone(), place));
+    let mut worlds: Vec<(Arc<World>, &str)> = books.map(|world| (Arc::new(world), "")).collect();
+    let in_run = model.cockpits.iter().map(|cockpit| (Arc::clone(&cockpit.standing), IN_RUN));
+    for (world, place) in in_run.chain([(Arc::new(atlas.clone()), IN_ATLAS)]) {
+        if worlds.iter().all(|(other, _)| *other != world) {
+            worlds.push((world, place));
         }
     }
     let mut choices = Vec::new();
     for (world, place) in worlds {
         for resident in world.robots.iter().take(MAX_RESIDENTS) {
             let Some((robot, q)) = AnyRobot::of_resident(resident) else { continue };
-            choices.push((resident.name.clone(), robot, q, world.clone(), place));
+            choices.push((resident.name.clone(), robot, q, Arc::clone(&world), place));
             if let (AnyRobot::Hitch(car), AnyConfiguration::Hitch(at)) = (robot, q) {
                 let (car, trailer) = match at.trailer {
                     None => (car.with_trailer(), Some(at.body.theta)),
                     Some(_) => (car.without_trailer(), None),
                 };
                 let q = AnyConfiguration::Hitch(HitchCfg { body: at.body, trailer });
-                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, world.clone(), place));
+                choices.push((resident.name.clone(), AnyRobot::Hitch(car), q, Arc::clone(&world), place));
             }
         }
     }
@@ -141,10 +143,12 @@ fn named(name: &str, robot: &AnyRobot, world: &World, place: &str) -> String {
 
 fn task_choice(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
     let present = state.plan.task();
+    // asked in each frame, so worlds are compared by their addresses first
+    let is_in_run = || model.cockpits.iter().any(|cockpit| Arc::ptr_eq(&cockpit.standing, &present.world));
     let place = match &*present.world {
         _ if state.plan.is_in_books_world() => "",
+        _ if is_in_run() => IN_RUN,
         world if world == state.atlas.world() => IN_ATLAS,
-        world if model.cockpits.iter().any(|cockpit| *cockpit.standing == *world) => IN_RUN,
         _ => CHANGED,
     };
     let shown = named(&present.name, &present.robot, &present.world, place);
@@ -153,7 +157,8 @@ fn task_choice(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
             let words = named(&name, &robot, &world, place);
             if ui.selectable_label(words == shown, words).clicked() {
                 let goal = goal_for(&robot, &world, q);
-                state.plan.take(Task::new(name, robot, world, [q, goal]));
+                let scene = Arc::new(Scene::of_world(&world));
+                state.plan.take(Task::in_scene(name, robot, (world, scene), [q, goal]));
             }
         }
     });

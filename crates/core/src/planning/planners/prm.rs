@@ -128,7 +128,8 @@ impl<R: Robot<Configuration: Chart>> Planner<R> for Prm<R> {
                 self.place(sample);
             }
         }
-        let is_due = self.cost == f64::INFINITY || self.roads.len() > self.searched + self.searched / 100;
+        let grown = self.roads.len() - self.searched;
+        let is_due = self.cost == f64::INFINITY || grown >= (self.searched / 100).max(1);
         if is_due && self.component(0) == self.component(1) {
             self.improve();
         }

@@ -1,6 +1,5 @@
 //! `CellLengths`, lengths along the edges and diagonals of cells, which no way between two corners undercuts.
 
-use crate::cspace::CellState;
 use crate::num::{greater, lesser};
 use crate::planning::Queue;
 
@@ -40,7 +39,7 @@ impl<'a, const N: usize> CellLengths<'a, N> {
 
     /// By how much each coordinate changes straight from one point to another.
     pub(super) fn straight(&self, [start, goal]: [[f64; N]; 2]) -> [f64; N] {
-        let off = self.off(self.place(start), self.place(goal));
+        let off = self.off(self.cells.scaled(start), self.cells.scaled(goal));
         std::array::from_fn(|i| off[i].abs() * self.cells.steps[i])
     }
 
@@ -52,11 +51,11 @@ impl<'a, const N: usize> CellLengths<'a, N> {
         [start, goal]: [[f64; N]; 2],
         reach: [f64; N],
     ) -> Option<(f64, [f64; N])> {
-        let (first, last) = (self.place(start), self.place(goal));
+        let (first, last) = (self.cells.scaled(start), self.cells.scaled(goal));
         let ahead = self.off(first, last);
         // behind the start, so that the way from there leads past it
         let behind = (0..N).filter(|i| ahead[*i] < 0.0).fold(0, |bits, i| bits | 1 << i);
-        let from = self.corner(self.cell(first), behind);
+        let from = self.corner(self.cells.index(first), behind);
         // an angle is reached whole by half a turn to either side
         let most = |i: usize| if self.cells.wraps[i] { 0.5 * self.cells.side as f64 } else { self.cells.side as f64 };
         let cells_of = |i: usize| lesser(greater(reach[i] / self.cells.steps[i], 0.0), most(i));
@@ -65,29 +64,7 @@ impl<'a, const N: usize> CellLengths<'a, N> {
         let corners = |cell: [usize; N]| (0..1_usize << N).map(move |bits| self.corner(cell, bits));
         let mut is_end = vec![false; self.sides.iter().product()];
         ends.iter().flat_map(|cell| corners(*cell)).for_each(|corner| is_end[corner] = true);
-        let mut lengths = vec![f64::INFINITY; is_end.len()];
-        let mut before = vec![from; lengths.len()];
-        let (mut is_done, mut left) = (vec![false; lengths.len()], is_end.iter().filter(|is_end| **is_end).count());
-        let mut open = Queue::new();
-        lengths[from] = 0.0;
-        open.push(0.0, from);
-        while left > 0
-            && let Some(corner) = open.pop()
-        {
-            if std::mem::replace(&mut is_done[corner], true) {
-                continue;
-            }
-            left -= usize::from(is_end[corner]);
-            for (cell, own) in self.around(corner) {
-                for (bits, step) in norm.next(own) {
-                    let (other, length) = (self.corner(cell, bits), lengths[corner] + step);
-                    if length < lengths[other] {
-                        (lengths[other], before[other]) = (length, corner);
-                        open.push(length + norm.length(self.off(self.at(other), last)), other);
-                    }
-                }
-            }
-        }
+        let (lengths, before) = self.shortest(norm, from, last, &is_end);
         let spent = norm.length(self.off(self.at(from), first));
         // from the path's end to a corner of its cell: no farther than by way of the goal, nor than across the cell
         let (beside, across) = (norm.length(reach), norm.length([1.0; N]));
@@ -106,6 +83,35 @@ impl<'a, const N: usize> CellLengths<'a, N> {
         Some((rest(&end), changes))
     }
 
+    /// The lengths of the shortest ways from a corner to all ends that can be reached, and for each corner the one
+    /// before it. The search goes toward a place (A*), whose distance by the norm no way undercuts.
+    fn shortest(&self, norm: &CellNorm, from: usize, toward: [f64; N], is_end: &[bool]) -> (Vec<f64>, Vec<usize>) {
+        let mut lengths = vec![f64::INFINITY; is_end.len()];
+        let mut before = vec![from; lengths.len()];
+        let (mut is_done, mut ends) = (vec![false; lengths.len()], is_end.iter().filter(|is_end| **is_end).count());
+        let mut open = Queue::new();
+        lengths[from] = 0.0;
+        open.push(0.0, from);
+        while ends > 0
+            && let Some(corner) = open.pop()
+        {
+            if std::mem::replace(&mut is_done[corner], true) {
+                continue;
+            }
+            ends -= usize::from(is_end[corner]);
+            for (cell, own) in self.around(corner) {
+                for (bits, step) in norm.next(own) {
+                    let (other, length) = (self.corner(cell, bits), lengths[corner] + step);
+                    if length < lengths[other] {
+                        (lengths[other], before[other]) = (length, corner);
+                        open.push(length + norm.length(self.off(self.at(other), toward)), other);
+                    }
+                }
+            }
+        }
+        (lengths, before)
+    }
+
     /// The open cells that hold places no farther than `reach` from a place along each coordinate.
     fn open_cells(&self, place: [f64; N], reach: [f64; N]) -> Vec<[usize; N]> {
         let side = self.cells.side as isize;
@@ -122,23 +128,8 @@ impl<'a, const N: usize> CellLengths<'a, N> {
                 |cell: [usize; N]| along(i).map(move |x| std::array::from_fn(|k| if k == i { x } else { cell[k] }));
             cells = cells.into_iter().flat_map(with).collect();
         }
-        cells.retain(|cell| self.is_open(*cell));
+        cells.retain(|cell| self.cells.is_open(*cell));
         cells
-    }
-
-    fn is_open(&self, cell: [usize; N]) -> bool {
-        let number = (0..N).rev().fold(0, |number, i| number * self.cells.side + cell[i]);
-        self.cells.states[number] != CellState::Blocked
-    }
-
-    /// A point in cells from the least corner.
-    fn place(&self, p: [f64; N]) -> [f64; N] {
-        std::array::from_fn(|i| (p[i] - self.cells.min[i]) / self.cells.steps[i])
-    }
-
-    /// The cell in which a place lies.
-    fn cell(&self, place: [f64; N]) -> [usize; N] {
-        place.map(|x| (x.floor() as usize).min(self.cells.side - 1))
     }
 
     /// The cells from one place to another, angles the short way.
@@ -181,7 +172,7 @@ impl<'a, const N: usize> CellLengths<'a, N> {
                     return None;
                 }
             }
-            self.is_open(cell).then_some((cell, bits))
+            cells.is_open(cell).then_some((cell, bits))
         })
     }
 }

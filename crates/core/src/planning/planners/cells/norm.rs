@@ -68,7 +68,7 @@ impl CellNorm {
         }
     }
 
-    /// The norm of a step of so many cells along each coordinate.
+    /// The norm of a step, given in cells along each coordinate.
     pub(super) fn length<const N: usize>(&self, cells: [f64; N]) -> f64 {
         let [(i, first), (j, second)] = self.plane;
         let (x, y) = (cells[i].abs(), cells[j].abs());

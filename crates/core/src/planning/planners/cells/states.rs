@@ -22,31 +22,49 @@ impl<const N: usize> CellStates<N> {
         CellStates { states: map.raster(level), side, min: slice.min(), steps, wraps }
     }
 
-    /// The number of the cell in which a point lies; on its last side, of the last.
-    pub(super) fn cell(&self, p: [f64; N]) -> usize {
+    /// A point in cells from the least corner.
+    pub(super) fn scaled(&self, p: [f64; N]) -> [f64; N] {
+        std::array::from_fn(|i| (p[i] - self.min[i]) / self.steps[i])
+    }
+
+    /// The index along each side of the cell in which a point lies; on the last side, of the last.
+    pub(super) fn index(&self, scaled: [f64; N]) -> [usize; N] {
         let last = (self.side - 1) as f64;
-        let place = |i: usize| ((p[i] - self.min[i]) / self.steps[i]).floor().clamp(0.0, last) as usize;
-        (0..N).rev().fold(0, |cell, i| cell * self.side + place(i))
+        scaled.map(|x| x.floor().clamp(0.0, last) as usize)
     }
 
-    pub(super) fn place(&self, cell: usize) -> [usize; N] {
-        std::array::from_fn(|i| cell / self.side.pow(i as u32) % self.side)
+    /// The number of the cell of an index, row after row.
+    pub(super) fn number(&self, index: [usize; N]) -> usize {
+        index.into_iter().rev().fold(0, |number, i| number * self.side + i)
     }
 
-    pub(super) fn middle(&self, cell: usize) -> [f64; N] {
-        let place = self.place(cell);
-        std::array::from_fn(|i| self.min[i] + (place[i] as f64 + 0.5) * self.steps[i])
+    fn index_of(&self, number: usize) -> [usize; N] {
+        std::array::from_fn(|i| number / self.side.pow(i as u32) % self.side)
+    }
+
+    /// The number of the cell in which a point lies.
+    pub(super) fn cell(&self, p: [f64; N]) -> usize {
+        self.number(self.index(self.scaled(p)))
+    }
+
+    pub(super) fn is_open(&self, index: [usize; N]) -> bool {
+        self.states[self.number(index)] != CellState::Blocked
+    }
+
+    pub(super) fn middle(&self, number: usize) -> [f64; N] {
+        let index = self.index_of(number);
+        std::array::from_fn(|i| self.min[i] + (index[i] as f64 + 0.5) * self.steps[i])
     }
 
     /// The cells that share a side with a cell, with the distance to them. A way through a corner or an edge alone
     /// would touch the cells beside it, so those decide.
     fn beside(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
-        let (place, side) = (self.place(cell), self.side);
+        let (index, side) = (self.index_of(cell), self.side);
         (0..N).flat_map(move |i| [(i, side - 1), (i, 1)]).filter_map(move |(i, step)| {
-            let other = (place[i] + step) % side;
-            let across = place[i].abs_diff(other) > 1;
+            let other = (index[i] + step) % side;
+            let across = index[i].abs_diff(other) > 1;
             let stride = side.pow(i as u32);
-            (self.wraps[i] || !across).then(|| (cell - place[i] * stride + other * stride, self.steps[i]))
+            (self.wraps[i] || !across).then(|| (cell - index[i] * stride + other * stride, self.steps[i]))
         })
     }
 

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::*;
+use crate::cspace::CellState;
 use crate::num::{cos, greater, hypot, sin};
 use crate::planning::planners::cells::norm::LengthMeasure;
 use crate::random::{Seed, Stream};
@@ -195,7 +196,7 @@ fn no_way_by_sight_is_shorter_than_the_bound() {
 }
 
 #[test]
-fn a_gauge_is_nowhere_longer_than_what_it_measures() {
+fn a_norm_is_nowhere_longer_than_what_it_measures() {
     let mut draws = Stream::new(Seed(6), "planning/norms");
     for _ in 0..20_000 {
         let mut some = |scale: f64| [draws.unit(), draws.unit(), draws.unit()].map(|u| scale * u);
