@@ -112,16 +112,12 @@ function tellAnswer() {
   }, 400);
 }
 
-/** What the lab says of an arm's way to its other elbow that hits something. */
-const BLOCKED = /^the straight way (hits|is not proven)/;
-let blocked = ""; // those words, while they stand
-
 const { mirror, at, widgets, twin } = twins({
   container: $("controls"),
   send,
   titles: () => Object.values(files.widgets).map((widget) => widget.title),
   // the notice and the way that is blocked in #heard or #urgent, and the formulas, which a frame does not show
-  said: () => [state?.notice?.text ?? "", blocked, ...(embedded ? [] : [...document.querySelectorAll("#formulas li:not([hidden])")].map((item) => item.title))],
+  said: () => [state?.notice?.text ?? "", state?.blocked ?? "", ...(embedded ? [] : [...document.querySelectorAll("#formulas li:not([hidden])")].map((item) => item.title))],
   leave: () => canvas.focus({ preventScroll: true }),
   nudge,
   alarm,
@@ -222,6 +218,7 @@ const hear = {
       announce(message.notice?.error ? "" : (message.notice?.text ?? ""));
     }
     if (before && message.playing !== before.playing) announce(message.playing ? "Playing" : `Paused at tick ${message.tick}`);
+    if (message.blocked && message.blocked !== before?.blocked) announce(message.blocked);
     if (before && message.armed !== before.armed) announce(message.armed ? `${message.armed} is in your hand: arrow keys drive, Escape lets go` : "No robot is in your hand");
     for (const robot of message.robots) {
       const earlier = before?.robots.find((r) => r.name === robot.name);
@@ -234,9 +231,6 @@ const hear = {
     shown.light(message.lit);
   },
   tree(message) {
-    const words = message.widgets.find(({ kind, name }) => kind === "text" && BLOCKED.test(name))?.name ?? "";
-    if (words && words !== blocked) announce(words);
-    blocked = words;
     mirror(message.widgets);
     look();
   },

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::listener::tell;
 use crate::web::mirror::mirror;
 use crate::window::for_page::{Interface, ShownDashboard};
-use crate::window::ui::{AtlasState, LessonState, PlanState, Settings, ShownChance};
+use crate::window::ui::{AskedTwin, AtlasState, LessonState, PlanState, Settings, ShownChance};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, Theme, readout};
 use motion_lab_core::robots::AnyRobot;
@@ -154,6 +154,7 @@ fn state(world: &World) -> Value {
         "lit": ui.lit.map(Role::name),
         "formulas": formulas,
         "armed": ui.armed,
+        "blocked": ui.twin.as_ref().and_then(AskedTwin::blocked),
         "notice": ui.notice().map(|n| json!({ "text": n.text, "error": n.is_error })),
         "robots": robots.collect::<Vec<_>>(),
         "doors": doors.collect::<Vec<_>>(),

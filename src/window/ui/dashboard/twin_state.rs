@@ -4,7 +4,7 @@ use crate::window::ui::Command;
 use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::robots::AnyRobot;
-use motion_lab_sim::anatomy::SweptMotion;
+use motion_lab_sim::anatomy::{SweptMotion, straight_way};
 use motion_lab_sim::run::{Quantized, RobotInput};
 use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
 
@@ -41,9 +41,19 @@ impl AskedTwin {
     pub fn is_way_of(&self, arm: &str) -> bool {
         self.robot == arm && self.way.is_some()
     }
+
+    /// What blocks an arm's way to its other elbow, in words; `None` of a way that is free, or not an arm's.
+    pub fn blocked(&self) -> Option<String> {
+        self.way.as_ref().filter(|way| way.ticks == 0).map(ElbowFlip::verdict)
+    }
 }
 
 impl ElbowFlip {
+    /// The verdict on the motion in words.
+    pub fn verdict(&self) -> String {
+        straight_way(&self.checker, &self.sweep)
+    }
+
     /// Where the arm was sent last.
     pub fn at(&self) -> AnyConfiguration {
         self.sweep.at(if self.ticks == 0 { 0.0 } else { f64::from(self.done) / f64::from(self.ticks) })

@@ -13,7 +13,7 @@ use motion_lab_core::configuration::{AnyConfiguration, Configuration, RobotKind}
 use motion_lab_core::num::{greater, sin, wrap};
 use motion_lab_core::picture::{Item, Role, footprint};
 use motion_lab_core::robots::{AnyRobot, Robot};
-use motion_lab_sim::anatomy::{SweptMotion, both_configurations, contact_items, in_the_way, straight_way, twin};
+use motion_lab_sim::anatomy::{SweptMotion, both_configurations, contact_items, in_the_way, twin};
 use motion_lab_sim::manifest::HintTask;
 use motion_lab_sim::run::{DT, Quantized, RobotInput};
 use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
@@ -85,9 +85,11 @@ pub fn offer(ui: &mut Ui, cockpit: &Cockpit, robot: &CockpitRobot, look: &FrameC
         button.show(ui, look).clicked()
     };
     let clicked = ui.scope(show).inner;
-    let said = match (asked.and_then(|asked| asked.way.as_ref()), other) {
-        (Some(way), _) if way.ticks == 0 => straight_way(&way.checker, &way.sweep),
-        (Some(way), _) => format!("{}: it goes there", straight_way(&way.checker, &way.sweep)),
+    let way = asked.and_then(|asked| asked.way.as_ref());
+    let said = match (way, other) {
+        (Some(way), _) => {
+            asked.and_then(AskedTwin::blocked).unwrap_or_else(|| format!("{}: it goes there", way.verdict()))
+        }
         (None, _) if waits => "the drag waits for the next tick: step or play first".to_owned(),
         (None, None) => "straight or folded: no other arm has this tip".to_owned(),
         (None, Some(_)) if robot.is_arm => "the ghost has the same tip: send the arm there".to_owned(),
@@ -147,7 +149,7 @@ pub fn both_of(kind: RobotKind, model: &Dashboard, state: &UiState) -> Option<St
     if let Some(AskedTwin { way: Some(way), robot: name }) = &state.twin
         && *name == robot.name
     {
-        return Some(format!("Two elbows have this tip, and {}.", straight_way(&way.checker, &way.sweep)));
+        return Some(format!("Two elbows have this tip, and {}.", way.verdict()));
     }
     let (fitted, q) = modelled(robot)?;
     let both = both_configurations(&fitted, &q)?;
