@@ -17,16 +17,20 @@ pub fn draws(name: &str) -> Stream {
 
 /// Walls of 0.2 to `longest` metres in a square.
 pub fn walls(count: usize, side: f64, longest: f64) -> Scene {
+    Scene::of_walls(&wall_segments(count, side, longest))
+}
+
+/// The segments of [`walls`].
+pub fn wall_segments(count: usize, side: f64, longest: f64) -> Vec<Segment> {
     let mut s = draws("walls");
-    let walls: Vec<Segment> = (0..count)
+    (0..count)
         .map(|_| {
             let a = Point2::new(s.uniform(0.0, side), s.uniform(0.0, side));
             let (sin, cos) = num::sin_cos(s.uniform(-PI, PI));
             let length = s.uniform(0.2, longest);
             Segment::new(a, Point2::new(a.x + length * cos, a.y + length * sin))
         })
-        .collect();
-    Scene::of_walls(&walls)
+        .collect()
 }
 
 /// Boxes of 0.1 to 0.5 m at random headings, one per square metre of a square about the origin, and none within `clear`
