@@ -1,5 +1,7 @@
 //! What a stranger tripped over: fading, hints, notices, refusals, the seed, plots, sizes down to a point.
 
+mod random_input;
+
 use super::*;
 use crate::window::ui::Settings;
 use crate::window::ui::paint::style::ScreenTheme;

@@ -183,7 +183,8 @@ fn followed(
     scale: f32,
 ) -> Option<Fit> {
     // a view that went along would take the pointer's place along too, and a tow would never end
-    if camera.zoom <= 1.0 || state.held == (0, 0) || state.tow.is_some() {
+    // and a paper without room has no middle
+    if camera.zoom <= 1.0 || !paper.is_positive() || state.held == (0, 0) || state.tow.is_some() {
         return None;
     }
     let robot = cockpit.robots.iter().find(|robot| state.armed.as_ref() == Some(&robot.name))?;
