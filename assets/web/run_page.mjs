@@ -15,7 +15,10 @@ const source = (name) => readFileSync(join(here, name), "utf8");
 
 /** The text of the page, with what it says of its simulator, and the simulator's module; from a folder of parts. */
 export function runPage(parts) {
-  const [light, module] = [readFileSync(join(parts, "light.js"), "utf8"), readFileSync(join(parts, "light_bg.wasm"))];
+  const [loader, module] = [readFileSync(join(parts, "light.js"), "utf8"), readFileSync(join(parts, "light_bg.wasm"))];
+  // a frame without an address, in which a notebook shows the page, is none that another can be relative to; a script's own never is
+  const light = loader.replace("new URL(document.currentScript.src, location.href).toString()", "document.currentScript.src");
+  if (light === loader) throw new Error("wasm-bindgen's script is not what it was: see here");
   // the simulator itself says which one it is
   const simulator = new Function(`${light}; return wasm_bindgen;`)();
   simulator.initSync({ module });

@@ -28,6 +28,7 @@ mod recording;
 mod resident;
 mod robot;
 mod run;
+mod run_page;
 mod scan;
 mod script;
 mod search;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 
 use numpy::{IntoPyArray, PyArrayMethods};
-use pyo3::exceptions::{PyFileExistsError, PyIndexError};
+use pyo3::exceptions::{PyException, PyFileExistsError, PyFileNotFoundError, PyIndexError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple, PyType};
 
@@ -22,6 +22,7 @@ use crate::frame::PyFrame;
 use crate::interrupt;
 use crate::natural::{natural, natural_or_none};
 use crate::picture::{PyPicture, theme};
+use crate::run_page::{NO_TEMPLATE, framed, is_soon_simulated, page, usual_template};
 use crate::table::{by_name, structured};
 use crate::verification::{PyDifference, PyVerification, verify};
 use crate::world::PyWorld;
@@ -298,11 +299,39 @@ impl PyRun {
         Ok(Some(self.svg(py, None, "light")?.svg().to_owned()))
     }
 
+    /// The run as one page, which any browser opens without a network: it holds the simulator, simulates the run again,
+    /// says whether every second comes out the same, and plays it. The page of `motion-lab export -o RUN.html`;
+    /// `read` reads it. `template` is what the run is put into: by default what the wheel brings, else a page that this
+    /// version of the lab wrote, or the file `run-page.template` of `assets/web/build`.
+    ///
+    /// Raises RunError for a run that is another when it is simulated again, OSError for a template that cannot be read
+    /// or is none, FileNotFoundError where the package has none. Ctrl+C stops it within 0.1 s.
+    #[pyo3(signature = (*, template = None))]
+    fn to_html(&self, py: Python<'_>, template: Option<PathBuf>) -> PyResult<String> {
+        let template = match template {
+            Some(named) => named,
+            None => usual_template(py)?.ok_or_else(|| PyFileNotFoundError::new_err(NO_TEMPLATE))?,
+        };
+        page(py, &template, &self.log)
+    }
+
+    /// The page of `to_html` in a frame, where it is made within a second or so; else the picture. A notebook that is
+    /// not trusted takes the frame away, and shows the picture within it.
     fn _repr_html_(&self, py: Python<'_>) -> PyResult<Option<String>> {
-        if self.needs_frames().is_err() {
-            return Ok(None);
+        let picture = match self.needs_frames() {
+            Ok(()) => Some(self.svg(py, None, "light")?.html(py)?),
+            Err(_) => None,
+        };
+        if !is_soon_simulated(&self.log) {
+            return Ok(picture);
         }
-        self.svg(py, None, "light")?.html(py).map(Some)
+        let Some(template) = usual_template(py)? else { return Ok(picture) };
+        match page(py, &template, &self.log) {
+            Ok(page) => Ok(Some(framed(&page, picture.as_deref().unwrap_or_default()))),
+            // what a page refuses is none of the picture's; an interrupt is
+            Err(error) if error.is_instance_of::<PyException>(py) => Ok(picture),
+            Err(error) => Err(error),
+        }
     }
 
     fn __repr__(&self, py: Python<'_>) -> String {

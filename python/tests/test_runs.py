@@ -86,7 +86,7 @@ def test_inputs_in_a_list_give_the_pinned_runs():
 def test_a_digest_log_has_the_digest_of_the_frames_and_none_of_them(tmp_path):
     run = ml.record(frames=False)
     assert (run.digest, run.has_frames, run.ticks) == (TOUR, False, 1200)
-    assert run._repr_html_() is None and run._repr_svg_() is None
+    assert run._repr_svg_() is None
     run.write(tmp_path / "digests.mcap")
     assert (tmp_path / "digests.mcap").stat().st_size < 60_000
     verification = ml.read(tmp_path / "digests.mcap").verify()
@@ -302,7 +302,7 @@ def test_a_picture_is_an_svg_that_notebooks_show(tour, tmp_path):
     picture.save(tmp_path / "tour.svg")
     assert (tmp_path / "tour.svg").read_text() == picture.svg
     assert tour.plot(theme="dark").svg != tour.plot(theme="light").svg == tour._repr_svg_()
-    assert tour._repr_html_() == tour.plot()._repr_html_()
+    assert tour.plot()._repr_html_() in tour._repr_html_()
     with pytest.raises(ValueError, match=r"tour\.png: a picture is an SVG file, whose name ends with \.svg"):
         picture.save(tmp_path / "tour.png")
 

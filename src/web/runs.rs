@@ -9,7 +9,7 @@ use motion_lab_sim::capture::RunFigure;
 use motion_lab_sim::recording::{Recorder, RunError, RunParts, TickDigests, Verification, verify};
 use motion_lab_sim::run::{Difference, Log, LogError, LogKind, LogWriter, Recipe, RunDigest};
 #[cfg(not(feature = "web"))]
-use motion_lab_sim::run_page::PageTemplate;
+use motion_lab_sim::run_page::{PageTemplate, UnfinishedPage};
 
 /// Why no log came of a run.
 #[derive(Debug, thiserror::Error)]
@@ -75,7 +75,8 @@ pub fn record_log(parts: &str) -> Result<Vec<u8>, JsError> {
 #[cfg(not(feature = "web"))]
 #[wasm_bindgen]
 pub fn run_page(parts: &str, template: String, module: &[u8]) -> Result<String, JsError> {
-    PageTemplate::of(template, module).map_err(error)?.page(&recipe_of(parts)?, |_| {}).map_err(error)
+    let template = PageTemplate::of(template, module).map_err(error)?;
+    UnfinishedPage::of_run(&template, recipe_of(parts)?).and_then(UnfinishedPage::page).map_err(error)
 }
 
 /// Which simulator this is: see [`simulator_print`](motion_lab_sim::run_page::simulator_print).

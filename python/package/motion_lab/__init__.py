@@ -49,6 +49,7 @@ from ._core import (
 if TYPE_CHECKING:
     from ._answers import FREE, HIT, UNRESOLVED, Edge, Shape, Verdict, Witness
     from ._compare import Planner, compare
+    from .widget import Widget as Widget
 
 __all__ = [
     "FREE",
@@ -102,6 +103,8 @@ __all__ = [
 # what is loaded when it is first asked for, and from which module
 _LATER = dict.fromkeys(["FREE", "HIT", "UNRESOLVED", "Edge", "Shape", "Verdict", "Witness"], "_answers")
 _LATER |= dict.fromkeys(["Planner", "compare"], "_compare")
+# not among __all__: it needs anywidget
+_LATER["Widget"] = "widget"
 
 
 def __getattr__(name: str) -> object:

@@ -249,6 +249,12 @@ lab("a saved minute is small, plays, and opens in the lab", "/?seed=3&tick=1200"
   assert.ok(decodeURIComponent(await picture()).includes(digestOf(await page.page.textContent("#verdict"))), "with the run's digest");
   assert.match(native("info", log), new RegExp(digestOf(await page.page.textContent("#verdict"))));
   assert.deepEqual(await page.close(), []);
+  // in a frame without an address of its own, as a notebook shows it
+  const notebook = await lab.page.context().newPage();
+  await notebook.setContent("<iframe></iframe>");
+  await notebook.locator("iframe").evaluate((frame, text) => void (frame.srcdoc = text), html);
+  await notebook.frameLocator("iframe").locator("html[data-verdict=verified]").waitFor({ state: "attached", timeout: 60000 });
+  await notebook.close();
   await lab.send({ do: "seed", seed: "4" });
   await lab.until((s) => s.seed === "4");
   await lab.page.evaluate((text) => window.motionLab.open(new File([text], "minute.html")), html);

@@ -1,5 +1,7 @@
 //! `Log`, a recorded run as data.
 
+use std::sync::Arc;
+
 use super::{Digest, Frame, Recipe, RunDigest};
 use crate::tour::TourConfig;
 
@@ -79,6 +81,16 @@ impl SecondDigests {
 }
 
 impl Log {
+    /// The recipe of what is recorded: of a recording that ends early, one that ends with it.
+    pub fn recorded_recipe(&self) -> Recipe {
+        let mut recipe = self.recipe.clone();
+        if recipe.config.ticks != self.ticks() {
+            Arc::make_mut(&mut recipe.config).ticks = self.ticks();
+            recipe.script.truncate_after(self.ticks());
+        }
+        recipe
+    }
+
     /// A log with frames.
     pub fn with_frames(recipe: Recipe, initial: Frame, frames: Vec<Frame>) -> Self {
         Log { recipe, recorded: Recorded::Frames { initial, frames } }

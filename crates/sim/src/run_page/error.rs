@@ -2,7 +2,7 @@
 
 use super::PageValue;
 use crate::recording::RunError;
-use crate::run::LogError;
+use crate::run::{Difference, LogError};
 
 /// Why bytes are no template of a page.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -43,4 +43,7 @@ pub enum RunPageError {
     /// It cannot be logged.
     #[error(transparent)]
     Log(#[from] LogError),
+    /// It is not the recorded one when it is simulated again, and its page would not verify.
+    #[error("the run is another when it is simulated again: {0}")]
+    Differs(Box<Difference>),
 }

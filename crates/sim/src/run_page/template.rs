@@ -6,12 +6,8 @@ use std::ops::Range;
 use base64::prelude::{BASE64_STANDARD, Engine};
 
 use super::gzip::gzip;
-use super::{PageValue, RunPageError, TemplateError, simulator_print};
-use crate::capture::RunFigure;
-use crate::recording::Recorder;
-use crate::run::{Digest, LogKind, LogWriter, Recipe};
+use super::{PageValue, TemplateError, simulator_print};
 use motion_lab_core::one_line::quoted;
-use motion_lab_core::picture::Theme;
 
 /// The first bytes of a WebAssembly module.
 const MODULE: &[u8] = b"\0asm";
@@ -29,15 +25,20 @@ pub struct PageTemplate {
     simulator: String,
 }
 
-/// A run as its page holds it.
-struct RunInPage {
-    digest: Digest,
+/// A run as its page holds it: in letters of base64, or numbers.
+pub(super) struct RunInPage {
+    pub(super) seed: String,
+    pub(super) ticks: String,
+    pub(super) digest: String,
     /// On light and on dark paper.
-    figures: [String; 2],
-    log: Vec<u8>,
+    pub(super) figures: [String; 2],
+    pub(super) log: String,
 }
 
 impl PageTemplate {
+    /// Largest size of a file that is read as one, bytes: 20 times the site's simulator.
+    pub const MAX_BYTES: u64 = 64 << 20;
+
     /// Reads a template: a page that holds a run, or a page's text with the bytes of the simulator's module behind it.
     ///
     /// # Errors
@@ -84,16 +85,10 @@ impl PageTemplate {
         if found == own { Ok(()) } else { Err(TemplateError::OtherSimulator { found: quoted(found), own }) }
     }
 
-    /// The page of a run, which is simulated for it. Calls `on_tick` with the run at every tick from 0 on.
-    ///
-    /// # Errors
-    /// [`RunPageError`] when the run can't be simulated or logged.
-    pub fn page(&self, recipe: &Recipe, on_tick: impl FnMut(&Recorder)) -> Result<String, RunPageError> {
-        let RunInPage { digest, figures, log } = RunInPage::of(recipe, on_tick)?;
-        let [light, dark] = figures.map(|figure| BASE64_STANDARD.encode(figure));
-        let log = BASE64_STANDARD.encode(gzip(&log));
-        let [seed, ticks, digest] = [recipe.seed.to_string(), recipe.config.ticks.to_string(), digest.to_string()];
-        let values = [self.print(), &seed, &ticks, &digest, &dark, &light, &self.simulator, &log];
+    /// The page that holds this run.
+    pub(super) fn filled(&self, run: &RunInPage) -> String {
+        let RunInPage { seed, ticks, digest, figures: [light, dark], log } = run;
+        let values = [self.print(), seed, ticks, digest, dark, light, &self.simulator, log];
         let length = self.text.len() + values.map(str::len).iter().sum::<usize>();
         let (mut page, mut after) = (String::with_capacity(length), 0);
         for (place, value) in zip(&self.places, values) {
@@ -102,7 +97,7 @@ impl PageTemplate {
             after = place.end;
         }
         page.push_str(&self.text[after..]);
-        Ok(page)
+        page
     }
 }
 
@@ -116,23 +111,4 @@ fn place_of(value: PageValue, text: &str, after: usize) -> Result<Range<usize>, 
     let begin = begin.ok_or(TemplateError::Missing(value))?;
     let length = text[begin..].find(value.end()).ok_or(TemplateError::Missing(value))?;
     Ok(begin..begin + length)
-}
-
-impl RunInPage {
-    fn of(recipe: &Recipe, mut on_tick: impl FnMut(&Recorder)) -> Result<Self, RunPageError> {
-        let mut run = Recorder::of(recipe)?.without_keyframes();
-        let mut writer = LogWriter::new(Vec::new(), recipe, LogKind::Digests, run.frame())?;
-        let mut figure = RunFigure::default();
-        figure.watch(run.view());
-        on_tick(&run);
-        let ticks = recipe.config.ticks;
-        for _ in 0..ticks {
-            writer.tick(run.step())?;
-            figure.watch(run.view());
-            on_tick(&run);
-        }
-        let digest = writer.digest();
-        let figures = [Theme::Light, Theme::Dark].map(|theme| figure.svg(recipe, ticks, digest, theme));
-        Ok(RunInPage { digest, figures, log: writer.finish()? })
-    }
 }

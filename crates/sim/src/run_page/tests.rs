@@ -7,7 +7,7 @@ use base64::prelude::{BASE64_STANDARD, Engine};
 use super::*;
 use crate::capture::run_svg;
 use crate::recording::{Run, verify};
-use crate::run::{Event, Log, LogKind, Recipe, RobotInput, Script};
+use crate::run::{Event, Log, LogKind, Recipe, Recorded, RobotInput, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::picture::Theme;
 use motion_lab_core::random::Seed;
@@ -24,6 +24,11 @@ fn text() -> String {
 
 fn template() -> PageTemplate {
     PageTemplate::of(text(), MODULE).unwrap()
+}
+
+/// The page of a run.
+fn page_of(template: &PageTemplate, recipe: &Recipe) -> String {
+    UnfinishedPage::of_run(template, recipe.clone()).unwrap().page().unwrap()
 }
 
 fn recipe(seed: u64, ticks: u64) -> Recipe {
@@ -46,9 +51,13 @@ fn held(page: &str) -> (Vec<&str>, String) {
 #[test]
 fn a_page_holds_its_run_which_verifies_and_nothing_else_of_the_template_changes() {
     let recipe = recipe(7, 30);
-    let mut ticks = Vec::new();
-    let page = template().page(&recipe, |run| ticks.push(run.frame().tick)).unwrap();
-    assert_eq!(ticks, (0..=30).collect::<Vec<_>>());
+    let template = template();
+    let mut unfinished = UnfinishedPage::of_run(&template, recipe.clone()).unwrap();
+    for tick in 0..30 {
+        assert!(unfinished.tick() == tick && unfinished.go_on().unwrap());
+    }
+    assert!(!unfinished.go_on().unwrap() && unfinished.tick() == 30, "it ends with the run");
+    let page = unfinished.page().unwrap();
     let recorded = Run::record(Arc::clone(&recipe.config), recipe.seed).unwrap();
     let (values, left) = held(&page);
     assert_eq!(values[0], "%0%", "the simulator's print is the template's");
@@ -69,14 +78,31 @@ fn a_page_holds_its_run_which_verifies_and_nothing_else_of_the_template_changes(
 
 #[test]
 fn a_page_that_was_written_is_a_template_itself() {
-    let first = template().page(&recipe(7, 5), |_| {}).unwrap();
+    let first = page_of(&template(), &recipe(7, 5));
     let again = PageTemplate::read(first.as_bytes()).unwrap();
-    assert_eq!(again.page(&recipe(7, 5), |_| {}).unwrap(), first);
-    let other = template().page(&recipe(8, 6), |_| {}).unwrap();
-    assert!(other != first && again.page(&recipe(8, 6), |_| {}).unwrap() == other);
+    assert_eq!(page_of(&again, &recipe(7, 5)), first);
+    let other = page_of(&template(), &recipe(8, 6));
+    assert!(other != first && page_of(&again, &recipe(8, 6)) == other);
     // as the site's build writes it
     let file = [text().as_bytes(), MODULE].concat();
-    assert_eq!(PageTemplate::read(&file).unwrap().page(&recipe(7, 5), |_| {}).unwrap(), first);
+    assert_eq!(page_of(&PageTemplate::read(&file).unwrap(), &recipe(7, 5)), first);
+}
+
+#[test]
+fn a_log_s_page_holds_what_is_recorded_and_is_none_where_the_run_is_another() {
+    let template = template();
+    let mut log = Run::record(recipe(7, 30).config, Seed(7)).unwrap();
+    // an input beyond the recorded ticks is none of the page's run
+    let late = Event { tick: 25, robot: "Rusty".to_owned(), input: RobotInput::Release };
+    log.recipe.script = Script::new(vec![late], Vec::new());
+    let Recorded::Frames { frames, .. } = &mut log.recorded else { panic!("frames") };
+    frames.truncate(20);
+    let page = UnfinishedPage::of_log(&template, &log).unwrap().page().unwrap();
+    assert_eq!(page, page_of(&template, &recipe(7, 20)));
+    let Recorded::Frames { frames, .. } = &mut log.recorded else { panic!("frames") };
+    frames[11].robots[0].contacts += 1;
+    let refused = UnfinishedPage::of_log(&template, &log).unwrap().page().unwrap_err().to_string();
+    assert!(refused.starts_with("the run is another when it is simulated again: tick 12, "), "{refused}");
 }
 
 #[test]
@@ -89,7 +115,7 @@ fn no_name_of_a_run_is_read_as_markup() {
     let script = Script::new(vec![Event { tick: 1, robot, input: RobotInput::Release }], Vec::new());
     let config = TourConfig { worlds: vec![world], ticks: 3, ..TourConfig::default() };
     let recipe = Recipe::new(config, (Seed(1), script));
-    let page = template().page(&recipe, |_| {}).unwrap();
+    let page = page_of(&template(), &recipe);
     let (values, left) = held(&page);
     assert_eq!(left, held(&text()).1, "the page around its values is as it was");
     let signs = |c: char| c.is_ascii_alphanumeric() || "+/=".contains(c);

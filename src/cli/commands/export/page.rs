@@ -3,12 +3,10 @@
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use clap::Args;
-use motion_lab_sim::recording::Recorder;
-use motion_lab_sim::run::{Comparison, Log, Recipe};
-use motion_lab_sim::run_page::{PageTemplate, RunPageError, TemplateError};
+use motion_lab_sim::run::Log;
+use motion_lab_sim::run_page::{PageTemplate, RunPageError, TemplateError, UnfinishedPage};
 
 use crate::cli::support::input::{read_bytes, shown};
 use crate::cli::support::progress::CommandProgress;
@@ -27,9 +25,6 @@ pub struct PageArgs {
 
 /// The file that `assets/web/build` makes.
 const TEMPLATE: &str = "run-page.template";
-
-/// Largest size of a template, bytes: 20 times the site's simulator.
-const MAX_TEMPLATE: u64 = 64 << 20;
 
 /// Where a program in this folder has its template: beside it, or in the data of what it was installed with. A build's
 /// programs and its template lie so, too.
@@ -62,7 +57,7 @@ impl PageArgs {
 }
 
 fn read_template(file: &Path) -> Result<PageTemplate, Failure> {
-    let template = PageTemplate::read(&read_bytes(file, MAX_TEMPLATE)?);
+    let template = PageTemplate::read(&read_bytes(file, PageTemplate::MAX_BYTES)?);
     template.and_then(|template| template.check_simulator().map(|()| template)).map_err(|error| {
         let next = match &error {
             TemplateError::Print(_) => return Failure::internal(error),
@@ -76,41 +71,27 @@ fn read_template(file: &Path) -> Result<PageTemplate, Failure> {
     })
 }
 
-/// What is recorded of a run, as a run.
-fn recipe_of(log: &Log) -> Recipe {
-    let mut recipe = log.recipe.clone();
-    if recipe.config.ticks != log.ticks() {
-        Arc::make_mut(&mut recipe.config).ticks = log.ticks();
-        recipe.script.truncate_after(log.ticks());
-    }
-    recipe
-}
-
 /// The page of the run in a log, which is simulated again, and compared. Where it differs from the log, that is said,
 /// and there is no page, as it would not verify.
 pub fn page(args: &PageArgs, file: &Path, log: &Log) -> Result<Option<String>, Failure> {
-    let template = args.read()?;
-    let recipe = recipe_of(log);
-    let progress = CommandProgress::of(log.ticks(), "ticks");
-    let mut comparison: Option<Comparison<&Log>> = None;
-    let on_tick = |run: &Recorder| match &mut comparison {
-        None => comparison = Some(Comparison::begin(log, run.frame())),
-        Some(comparison) => {
-            comparison.tick(run.frame());
-            progress.at(run.frame().tick);
-        }
-    };
-    let page = template.page(&recipe, on_tick).map_err(|error| match error {
-        RunPageError::Run(error) => unstarted(error, &recipe),
+    let failure = |error| match error {
+        RunPageError::Run(error) => unstarted(error, &log.recipe),
         error => Failure::internal(error),
-    })?;
-    let Some(difference) = comparison.as_ref().and_then(Comparison::difference) else { return Ok(Some(page)) };
-    say(format!(
-        "{}: the run is another when it is simulated again: {difference}\n\
-         A page of it would not verify, and none is written: ask for the log as it was recorded.",
-        shown(file)
-    ));
-    Ok(None)
+    };
+    let template = args.read()?;
+    let progress = CommandProgress::of(log.ticks(), "ticks");
+    let mut page = UnfinishedPage::of_log(&template, log).map_err(failure)?;
+    while page.go_on().map_err(failure)? {
+        progress.at(page.tick());
+    }
+    match page.page() {
+        Err(error @ RunPageError::Differs(_)) => {
+            let next = "A page of it would not verify, and none is written: ask for the log as it was recorded.";
+            say(format!("{}: {error}\n{next}", shown(file)));
+            Ok(None)
+        }
+        page => page.map(Some).map_err(failure),
+    }
 }
 
 #[cfg(test)]
