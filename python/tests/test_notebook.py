@@ -45,7 +45,10 @@ def jupyterlab(folder):
         yield f"http://127.0.0.1:{port}/lab/tree"
     finally:
         server.terminate()
-        server.wait(30)
+        try:
+            server.wait(60)
+        except subprocess.TimeoutExpired:
+            server.kill()
 
 
 def test_a_trusted_notebook_simulates_the_run_again_and_another_shows_its_picture(tmp_path):
