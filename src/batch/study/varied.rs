@@ -4,7 +4,7 @@ use crate::batch::axis::CheckedAxis;
 use crate::batch::problem_set::ProblemSet;
 use crate::batch::values::{AxisValue, FiledProblem};
 
-/// The most values of an axis by which runs are told apart.
+/// The greatest number of values of an axis by which runs are grouped.
 const MAX_VALUES: u64 = 12;
 
 /// An axis of two to twelve values.

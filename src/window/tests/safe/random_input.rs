@@ -4,7 +4,7 @@
 //! `MOTION_LAB_INPUTS=100000 MOTION_LAB_SEED=7 cargo test --lib random_input` does more of them, and others.
 
 use egui::accesskit::{Action, ActionData, ActionRequest};
-use egui::{Rect, TouchDeviceId, TouchId, TouchPhase, vec2};
+use egui::{TouchDeviceId, TouchId, TouchPhase, vec2};
 
 use super::*;
 use crate::window::desktop::capture::Capturing;
@@ -66,17 +66,12 @@ impl Hands {
         pos2(along(size.x), along(size.y))
     }
 
-    /// The middle of a control, as often one that is not on the screen; any place where there is none.
+    /// Two times of three the middle of what a screen reader knows of, which may lie off the screen; else any place.
     fn somewhere(&mut self) -> Pos2 {
-        let middles: Vec<Pos2> = self.nodes().into_iter().map(|(_, rect)| rect.center()).collect();
+        let nodes = self.harness.root().children_recursive();
+        let placed = nodes.filter(|node| node.accesskit_node().bounding_box().is_some());
+        let middles: Vec<Pos2> = placed.map(|node| node.rect().center()).collect();
         if middles.is_empty() || self.draws.below(3) == 0 { self.anywhere() } else { self.pick(&middles) }
-    }
-
-    /// What a screen reader knows of: each by its name, with where it is.
-    fn nodes(&self) -> Vec<(String, Rect)> {
-        let root = self.harness.root();
-        let places = root.children_recursive().filter(|node| node.accesskit_node().bounding_box().is_some());
-        places.map(|node| (node.accesskit_node().label().unwrap_or_default(), node.rect())).collect()
     }
 
     fn modifiers(&mut self) -> Modifiers {
