@@ -4,7 +4,7 @@
 const ASKED = "light open play pause step step_back reset reroll seek why way_out seed widget tab lesson configuration robot door theme figure state link save".split(" ");
 
 /** What a page around hears. The run, the settings and what is copied are the reader's. */
-const HEARD = "ready state lesson figure link saved leave done error failed".split(" ");
+const HEARD = "ready state lesson figure link saved leave whole height done error failed".split(" ");
 
 /**
  * Speaks with the page around, if there is one. `ask` carries out a message, `askReader` asks whether the run may be saved, `refuse` tells

@@ -150,7 +150,7 @@ const values = {
 // these have plain names: other people's pages link them
 const named = Object.fromEntries(["motion-figure.js", "motion-figure.css"].map((name) => [name, source(join("book", name))]));
 for (const [name, text] of Object.entries(named)) modules[name] = write(name, text, "the book");
-for (const name of ["live.js", "progress.js", "tasks.js"]) modules[name] = hashed(name, linked(join("book", name)), "the book");
+for (const name of ["live.js", "progress.js", "tasks.js", "lens.js"]) modules[name] = hashed(name, linked(join("book", name)), "the book");
 const book = JSON.parse(readFileSync(join(parts, "book.json"), "utf8"));
 const stills = Object.fromEntries(book.figures.map((id) => [`still.${id}`, hashed(`book-${id}.svg`, inBoth(`book-${id}`), "the book")]));
 const chapter = {
@@ -159,6 +159,11 @@ const chapter = {
   sections: book.sections.map(({ id, title }) => `<li><a href="#${id}"><span>${escape(title)}</span></a></li>`).join("\n"),
   "book.css": hashed("book.css", source("book/book.css"), "the book"),
   "book.js": hashed("book.js", linked("book/book.js"), "the book"),
+  "lens.css": hashed("lens.css", source("book/lens.css"), "the book"),
+  "lens.js": modules["lens.js"],
+  "light.js": files.light,
+  "light.wasm": files.lightWasm,
+  "lens.files": JSON.stringify({ lightWasm: files.lightWasm }),
 };
 const pages = Object.fromEntries(Object.entries(named).map(([name, text]) => [name, hash(text)]));
 for (const [name, template, page] of [
@@ -166,11 +171,12 @@ for (const [name, template, page] of [
   ["embed.html", "index.html", "embed"],
   ["widgets.html", "widgets.html", "widgets"],
   ["book.html", "book/book.html", "book"],
+  ["lens.html", "book/lens.html", "lens"],
 ]) {
   // a frame shows no formulas
   const text = fill(source(template), { ...values, ...chapter, page, ...(page === "embed" && { formulas: "" }) });
   pages[name] = hash(text);
-  write(name, text, name === "book.html" ? "the book" : "the page");
+  write(name, text, template.startsWith("book/") ? "the book" : "the page");
 }
 const kept = { pages, files: weights.map((w) => w.name).filter((name) => !(name in pages)) };
 const version = createHash("sha256").update(JSON.stringify(kept)).digest("hex").slice(0, 12);

@@ -1,7 +1,8 @@
 //! The lab in a web page: addresses that hold a run, and what the WebAssembly builds export.
 //!
-//! There are two builds. The light one, without the feature `web`, records, verifies and draws runs; the page's
-//! overlay, the pages that hold one run, and `tests/all/determinism` use it. The other is the lab itself.
+//! There are two builds. The light one, without the feature `web`, records, verifies and draws runs, and has lenses
+//! that stand still; the page's overlay, the pages that hold one run, a book's figures, and `tests/all/determinism` use
+//! it. The other is the lab itself.
 
 // the light build only reads links
 #[cfg_attr(not(feature = "web"), allow(dead_code))]
@@ -14,7 +15,12 @@ mod message;
 #[cfg(all(feature = "screen", any(target_family = "wasm", test)))]
 mod mirror;
 #[cfg(target_family = "wasm")]
+mod query_value;
+#[cfg(target_family = "wasm")]
 mod runs;
+
+#[cfg(all(target_family = "wasm", not(feature = "web")))]
+mod lens;
 
 #[cfg(all(target_family = "wasm", feature = "web"))]
 mod page;

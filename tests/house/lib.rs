@@ -54,6 +54,7 @@ const ORDER: [(&str, &[&str]); 5] = [
             "avoid",
             "manifest",
             "capture",
+            "lens",
             "run_page",
         ],
     ),

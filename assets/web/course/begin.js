@@ -24,9 +24,10 @@
   if (element) {
     const files = JSON.parse(element.textContent);
     const own = (path) => path.split("/").pop();
-    for (const name of ["labWasm", "lightWasm"]) files[name] = await packedOf(own(files[name]), "application/wasm");
-    files.saved = await packedOf(own(files.saved), "text/html");
-    files.lab = moduleOf(own(files.lab));
+    for (const [name, type] of [["labWasm", "application/wasm"], ["lightWasm", "application/wasm"], ["saved", "text/html"]]) {
+      if (name in files) files[name] = await packedOf(own(files[name]), type);
+    }
+    if ("lab" in files) files.lab = moduleOf(own(files.lab));
     element.textContent = JSON.stringify(files);
   }
   await import(moduleOf(module));

@@ -21,7 +21,7 @@ const HASHED = /[\w-]+\.[0-9a-f]{12}\.\w+/g;
 function page(html) {
   const module = html.match(/<script type="module" src="([^"]*)"><\/script>/)?.[1];
   if (!module) return html.replace(HASHED, "../lab/$&"); // frames alone
-  let text = html.replace(/<link rel="modulepreload"[^>]*>\n/g, "");
+  let text = html.replace(/<link rel="(module)?preload"[^>]*>\n/g, "");
   text = swap(text, /<script type="module".*?<\/script>/, `<script defer src="files.js"></script>\n<script defer src="begin.js" data-module="MODULE"></script>`);
   text = swap(text, "script-src 'self'", "script-src 'self' blob:");
   text = swap(text, "connect-src 'self'", "connect-src 'self' blob:");
@@ -42,6 +42,6 @@ export function folder(site, begin) {
     // `light` is a plain script
     else if (/\.js$/.test(name) && !/^(light\.|offline\.js)/.test(name)) held[name] = contents.toString();
   }
-  const pages = ["index.html", "embed.html", "book.html", "widgets.html"].map((name) => [name, page(site.get(name).toString())]);
+  const pages = ["index.html", "embed.html", "book.html", "lens.html", "widgets.html"].map((name) => [name, page(site.get(name).toString())]);
   return new Map([...pages, ["files.js", `const FILES = ${JSON.stringify(held)};\n`], ["begin.js", begin]]);
 }

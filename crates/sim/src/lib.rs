@@ -48,4 +48,7 @@ pub mod manifest;
 
 pub mod capture;
 
+#[doc(hidden)]
+pub mod lens;
+
 pub mod run_page;

@@ -8,10 +8,11 @@ use serde_json::{Value, json};
 
 use super::listener::tell;
 use crate::web::mirror::mirror;
+use crate::web::query_value::query_value;
 use crate::window::for_page::{Interface, ShownDashboard};
 use crate::window::ui::{AskedTwin, AtlasState, LessonState, PlanState, Settings, ShownChance};
 use motion_lab_core::configuration::Configuration;
-use motion_lab_core::picture::{Role, Theme, readout};
+use motion_lab_core::picture::{Role, Theme};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::manifest::{ThemeChoice, Widget};
 use motion_lab_sim::recording::RunParts;
@@ -158,11 +159,7 @@ fn state(world: &World) -> Value {
         "notice": ui.notice().map(|n| json!({ "text": n.text, "error": n.is_error })),
         "robots": robots.collect::<Vec<_>>(),
         "doors": doors.collect::<Vec<_>>(),
-        "query": is_asked.then(|| json!({
-            "tab": query.tab.name(), "configuration": readout(&query.q().to_string()),
-            "coordinates": &query.q().coordinates()[..],
-            "intersects": query.intersects(), "distance": query.distance(),
-        })),
+        "query": is_asked.then(|| query_value(query)),
         "why": ui.chance.as_ref().map(why),
         "plan": (ui.widget == Widget::Plan).then(|| plan(&ui.plan)),
         "atlas": (ui.widget == Widget::Atlas).then(|| atlas(&ui.atlas)),

@@ -3,9 +3,8 @@
 use super::atlas::{FIRST_CELL, Mode};
 use super::dashboard::hand::drive;
 use super::dashboard::twins;
-use super::{AtlasState, Command, CspaceState, Dashboard, LessonState, UiState};
-use motion_lab_core::configuration::{AnyConfiguration, RobotKind};
-use motion_lab_sim::anatomy::Tab;
+use super::{AnatomyState, AtlasState, Command, CspaceState, Dashboard, LessonState, UiState};
+use motion_lab_core::configuration::RobotKind;
 use motion_lab_sim::manifest::{HintTask, Lesson, Widget};
 use motion_lab_sim::simulation::TransportCommand;
 
@@ -26,7 +25,8 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
     let Some(under_way) = state.lesson.as_mut().filter(|under_way| !under_way.is_ready) else { return };
     under_way.is_ready = true;
     let start = under_way.start.take();
-    let Lesson { task, widget } = under_way.lesson;
+    let lesson = under_way.lesson;
+    let Lesson { task, widget } = lesson;
     state.fills = false;
     drive::let_go(state, commands);
     if widget != Widget::Dashboard && model.playing {
@@ -52,11 +52,12 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
             }
         }
         Widget::Anatomy => {
-            state.anatomy = query_at(start);
-            state.anatomy.anatomy.tab = tab_of(task);
+            state.anatomy = AnatomyState::default();
+            state.anatomy.set(lesson.scene(start));
         }
         Widget::Cspace => {
-            state.anatomy = query_at(start);
+            state.anatomy = AnatomyState::default();
+            state.anatomy.set(lesson.scene(start));
             state.cspace = CspaceState::default();
         }
         Widget::Atlas => {
@@ -69,16 +70,6 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
         }
         Widget::Plan => state.plan.begin_anew(),
     }
-}
-
-/// Query as it begins, its robot at `start` where that is a configuration of it.
-fn query_at(start: Option<AnyConfiguration>) -> super::AnatomyState {
-    let mut state = super::AnatomyState::default();
-    if let Some(q) = start {
-        // another robot's is none of this one's
-        _ = state.anatomy.set_q(q);
-    }
-    state
 }
 
 /// What a lesson that has just been done taught, with the reader's own numbers where it is about one state of a robot.
@@ -108,15 +99,6 @@ fn kind_of(task: HintTask) -> Option<&'static str> {
         HintTask::TwoHeadings => Some(RobotKind::HITCH.name),
         HintTask::Drive | HintTask::DriveOn | HintTask::Held => Some(RobotKind::RUSTY.name),
         _ => None,
-    }
-}
-
-/// The question of Query that a lesson is about.
-fn tab_of(task: HintTask) -> Tab {
-    match task {
-        HintTask::Near => Tab::Witness,
-        HintTask::Hit | HintTask::FreeEnds => Tab::Swept,
-        _ => Tab::Distance,
     }
 }
 

@@ -110,28 +110,60 @@ lab("a figure's numbers, words and links are one with it", "/", async ({ page })
   await page.waitForSelector(".term.role-obstacle[data-lit]");
 }, { wait: false, timeout: 240000 });
 
-lab("one frame serves the figure that is read; the others keep their last picture and are found as they were left", "/", async ({ page }) => {
-  const frame = await within(page, "witness");
+// a figure that stands still has a frame with the simulator alone, the others have the lab's
+for (const { first, second, moved, isMoved, other } of [
+  { first: "witness", second: "torus", moved: { do: "configuration", coordinates: [0.5, 1.25] }, isMoved: () => window.received.state.query?.coordinates[0] === 0.5, other: "cspace" },
+  { first: "tour", second: "worlds", moved: { do: "seek", tick: 300 }, isMoved: () => window.received.state.widget === "dashboard" && window.received.state.tick === 300, other: "atlas" },
+]) {
+  lab(`one frame serves the figure that is read; the others keep their last picture and are found as they were left: ${first}`, "/", async ({ page }) => {
+    const frame = await within(page, first);
+    await frame.waitForFunction(() => window.received.state);
+    await frame.evaluate((message) => window.motionLab.send(message), moved);
+    await seen(frame, isMoved);
+    const still = await page.getAttribute(`#${first} img`, "src");
+    await page.click(`#${second} motion-figure`);
+    await seen(frame, (widget) => window.received.state.widget === widget, other);
+    await page.waitForFunction((id) => document.querySelector(`#${id} img`).src.startsWith("blob:"), first);
+    assert.notEqual(await page.getAttribute(`#${first} img`, "src"), still);
+    assert.equal(await page.locator("iframe").count(), 1);
+    // once the page's own pictures are there and nothing moves any more
+    const liesOver = (id) =>
+      page.waitForFunction((id) => {
+        const [outer, inner] = [`#${id} motion-figure`, "iframe"].map((selector) => document.querySelector(selector).getBoundingClientRect());
+        return ["left", "top", "width", "height"].every((side) => Math.abs(outer[side] - inner[side]) < 1);
+      }, id, { timeout: 5000 });
+    await liesOver(second);
+    // who scrolls back finds the first figure at work again
+    await page.evaluate(() => document.activeElement.blur());
+    await page.locator(`#${first}`).scrollIntoViewIfNeeded();
+    await page.evaluate((id) => document.querySelector(`#${id} motion-figure`).scrollIntoView({ block: "center" }), first);
+    await seen(frame, isMoved);
+    await liesOver(first);
+    assert.equal(page.frames().length, 2, "no second frame was made");
+  }, { wait: false, timeout: 240000 });
+}
+
+lab("the lab rests while a figure that stands still is read, and takes that figure over when it is asked to", "/", async ({ page }) => {
+  const whole = await within(page, "tour");
+  await seen(whole, () => window.received.state?.widget === "dashboard");
+  await whole.evaluate(() => window.motionLab.send({ do: "play" }));
+  await seen(whole, () => window.received.state.playing);
+  await page.click("#witness motion-figure");
+  await page.waitForSelector('iframe[src*="lens.html"]:not([data-waits])', { timeout: 20000 });
+  await seen(whole, () => !window.received.state.playing);
+  const inertness = () => page.evaluate(() => [...document.querySelectorAll("iframe")].map((frame) => [frame.src.includes("lens.html"), frame.inert]));
+  assert.deepEqual(await inertness(), [[false, true], [true, false]]);
+
+  const frame = page.frames().find((other) => other.url().includes("lens.html"));
   await frame.evaluate(() => window.motionLab.send({ do: "configuration", coordinates: [0.5, 1.25] }));
-  await seen(frame, () => window.received.state.query?.coordinates[0] === 0.5);
-  const still = await page.getAttribute("#witness img", "src");
-  await page.click("#worlds motion-figure");
-  await seen(frame, () => window.received.state.widget === "atlas");
-  await page.waitForFunction(() => document.querySelector("#witness img").src.startsWith("blob:"));
-  assert.notEqual(await page.getAttribute("#witness img", "src"), still);
-  assert.equal(await page.locator("iframe").count(), 1);
-  const over = async (id) => {
-    const [outer, inner] = [await page.locator(`#${id} motion-figure`).boundingBox(), await page.locator("iframe").boundingBox()];
-    return Math.abs(outer.x - inner.x) + Math.abs(outer.y - inner.y) + Math.abs(outer.width - inner.width) + Math.abs(outer.height - inner.height) < 4;
-  };
-  assert.ok(await over("worlds"), "it lies over its figure");
-  // who scrolls back finds the first figure at work again
-  await page.evaluate(() => document.activeElement.blur());
-  await page.locator("#witness").scrollIntoViewIfNeeded();
-  await page.evaluate(() => document.querySelector("#witness motion-figure").scrollIntoView({ block: "center" }));
-  await seen(frame, () => window.received.state.widget === "anatomy" && window.received.state.query?.coordinates[0] === 0.5);
-  assert.ok(await over("witness"));
-  assert.equal(page.frames().length, 2, "no second lab was loaded");
+  await seen(frame, () => window.received.state.query.coordinates[0] === 0.5);
+  await frame.click("#whole");
+  await seen(whole, () => window.received.state.widget === "anatomy" && String(window.received.state.query?.coordinates) === "0.5,1.25");
+  await page.waitForSelector('iframe[src*="embed.html"]:not([data-waits])');
+  assert.deepEqual(await inertness(), [[false, false], [true, true]]);
+  // it stays the lab's, and its numbers follow the lab
+  await whole.evaluate(() => window.motionLab.send({ do: "configuration", coordinates: [0.7853981633974483, 2] }));
+  await page.waitForFunction(() => [...document.querySelectorAll('.live[data-live="query.distance"]')].at(-1).textContent === "0.0000 m");
 }, { wait: false, timeout: 240000 });
 
 lab("a figure is one stop of Tab: Enter goes in, Escape out", "/", async ({ page }) => {

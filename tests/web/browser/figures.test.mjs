@@ -27,7 +27,8 @@ before(async () => {
 <script type="module" src="${from}/motion-figure.js"></script>
 <body style="margin:40px"><h1>A book of others</h1><div style="width:620px">
 ${figure("a", "widget=anatomy&amp;tab=witness&amp;q=0.5,1.25", `<a href="${from}/index.html?tab=witness"><img src="${PICTURE}" alt="An arm"></a>`)}
-${figure("b", "widget=atlas")}
+${figure("b", "widget=cspace&amp;q=1,1")}
+${figure("c", "widget=dashboard&amp;world=lot")}
 </div></body></html>`,
   );
   server = await serve(folder, 0);
@@ -46,7 +47,7 @@ lab("a page of another origin has figures that share one lab, hears and moves th
   });
   await page.goto(elsewhere());
   assert.equal(page.frames().length, 1, "no lab before a figure is touched");
-  assert.equal(await page.locator("#b a").getAttribute("href"), `${origin()}/index.html?widget=atlas`, "without a link of its own it opens the lab");
+  assert.equal(await page.locator("#b a").getAttribute("href"), `${origin()}/index.html?widget=cspace&q=1,1`, "without a link of its own it opens the lab");
   await page.focus("#a a");
   await page.keyboard.press("Enter");
   await page.waitForSelector("iframe:not([data-waits])", { timeout: 90000 });
@@ -72,14 +73,14 @@ lab("a page of another origin has figures that share one lab, hears and moves th
     const late = { motionLab: { kind: "state", widget: "anatomy" } };
     dispatchEvent(new MessageEvent("message", { source: document.querySelector("iframe").contentWindow, origin, data: late }));
   }, origin());
-  await heard("b", "widget", "atlas");
+  await heard("b", "widget", "cspace");
   const { x, y, width, height } = await page.locator("#b").boundingBox();
   const over = await page.locator("iframe").boundingBox();
   assert.ok([over.x - x, over.y - y, over.width - width, over.height - height].every((off) => Math.abs(off) < 1), "the frame lies over its figure");
   await page.waitForFunction(() => document.querySelector("#a img").src.startsWith("blob:"));
   assert.equal(await page.locator("iframe").count(), 1);
   // and nothing that is told of one figure comes as the other's
-  const mixed = await page.evaluate(() => window.heard.filter(({ kind, id, widget }) => kind === "state" && widget !== { a: "anatomy", b: "atlas" }[id]).length);
+  const mixed = await page.evaluate(() => window.heard.filter(({ kind, id, widget }) => kind === "state" && widget !== { a: "anatomy", b: "cspace" }[id]).length);
   assert.equal(mixed, 0);
   // who was within a figure and scrolls on to another has that one, though the frame still has the keys
   assert.equal(await page.evaluate(() => document.activeElement.tagName), "IFRAME");
@@ -87,4 +88,18 @@ lab("a page of another origin has figures that share one lab, hears and moves th
   await seen(frame, () => window.received.state.query?.coordinates[0] === 0.25);
   await send(frame, { do: "configuration", coordinates: [0.5, 1] });
   await heard("a", "query.coordinates", "0.5,1");
+
+  // what moves has the lab, in a frame of its own; only one of the two is seen
+  await page.evaluate(() => {
+    document.getElementById("c").scrollIntoView({ block: "center" });
+    document.getElementById("c").enter();
+  });
+  await heard("c", "widget", "dashboard");
+  const waits = () => page.evaluate(() => [...document.querySelectorAll("iframe")].map((frame) => [new URL(frame.src).pathname, frame.hasAttribute("data-waits")]));
+  await page.waitForFunction(() => document.querySelectorAll("iframe:not([data-waits])").length === 1);
+  assert.deepEqual(await waits(), [["/lens.html", true], ["/embed.html", false]]);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.evaluate(() => document.getElementById("a").scrollIntoView({ block: "center" }));
+  await page.waitForFunction(() => document.querySelector('iframe[src*="embed"]').hasAttribute("data-waits"));
+  assert.deepEqual(await waits(), [["/lens.html", false], ["/embed.html", true]]);
 }, { wait: false, timeout: 240000 });

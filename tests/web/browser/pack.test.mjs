@@ -264,11 +264,10 @@ test("from a folder, without any server, book and lab run, and the browser keeps
   await shareIs(page, `2 of ${ITEMS} done: 5 %`);
   await book.click("#witness motion-figure");
   await book.waitForSelector("iframe:not([data-waits])", { timeout: 90000 });
-  const figure = await inner(page, /folder\/embed\.html/);
-  await seen(figure, () => window.received.tree.some((w) => w.kind === "slider" && w.name === "θ₂"));
-  await figure.evaluate(() => {
-    const slider = window.received.tree.find((w) => w.kind === "slider" && w.name === "θ₂");
-    window.motionLab.send({ do: "act", id: slider.id, action: "set", value: "1.42" });
+  const figure = await inner(page, /folder\/lens\.html/);
+  await figure.locator("#sliders label").nth(1).locator("input").evaluate((input) => {
+    input.value = 1.42;
+    for (const type of ["input", "change"]) input.dispatchEvent(new Event(type));
   });
   await shareIs(page, `3 of ${ITEMS} done: 8 %`);
   await page.screenshot({ path: join(shots, "course-folder.png") });

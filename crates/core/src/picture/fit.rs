@@ -3,6 +3,9 @@
 use crate::geometry::{Aabb, Point2};
 use crate::num::lesser;
 
+/// Free room around a picture in a page, pixels.
+const PAGE_MARGIN: f64 = 8.0;
+
 /// A point of the screen, pixels: x right, y down.
 pub type ScreenPoint = [f64; 2];
 
@@ -35,6 +38,12 @@ impl Fit {
             centre: Point2::new(bounds.min.x + 0.5 * w, bounds.min.y + 0.5 * h),
             center_on_screen: [rect.min[0] + 0.5 * rect.size[0], rect.min[1] + 0.5 * rect.size[1]],
         }
+    }
+
+    /// Where a picture with these bounds lies in a part of a page of this size, pixels: see
+    /// [`Picture::svg_in_page`](super::Picture::svg_in_page).
+    pub fn in_page(bounds: &Aabb, size: [f64; 2]) -> Self {
+        Fit::new(bounds, ScreenRect { min: [0.0; 2], size }, PAGE_MARGIN)
     }
 
     /// The same rectangle of the screen with `centre`, a point of the world, in its middle, at `zoom` times the scale.

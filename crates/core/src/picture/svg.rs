@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use super::figure::{FigureEntry, WIDTH};
 use super::item::MIDDLE;
-use super::{Anchor, Face, Figure, Line, Palette, Primitive, Role, ScreenPoint, Sheet};
+use super::{Anchor, Face, Figure, Fit, Line, Palette, Picture, Primitive, Role, ScreenPoint, Sheet, resolve};
 
 impl Figure {
     /// The figure as an SVG file, the same bytes for the same figure and palette. Metres are fitted to the panels, and
@@ -18,6 +18,23 @@ impl Figure {
     pub fn svg_on(&self, sheet: &Sheet<'_>) -> String {
         let (entries, size) = self.lay_out(sheet.width_px);
         write(self, &entries, size, sheet)
+    }
+}
+
+impl Picture {
+    /// The picture as a part of a page with a style of its own: an SVG element of this size in pixels, with groups and
+    /// classes as a figure's file has them, and no colours, paper, frame and ids. It lies as [`Fit::in_page`] says.
+    pub fn svg_in_page(&self, size: [f64; 2]) -> String {
+        let fit = Fit::in_page(&self.bounds, size);
+        let mut out = Out { text: String::new(), ids: BTreeSet::new() };
+        let _ = writeln!(out.text, "<svg viewBox=\"0 0 {} {}\">", number(size[0]), number(size[1]));
+        for item in &self.items {
+            let _ = writeln!(out.text, "<g class=\"{}\"><title>{}</title>", item.role.name(), escape(&item.name));
+            out.primitives(&resolve(item, &fit));
+            out.text.push_str("</g>\n");
+        }
+        out.text.push_str("</svg>\n");
+        out.text
     }
 }
 
@@ -311,6 +328,16 @@ mod tests {
         assert_eq!(ids, ["title", "desc", "test-a--b-", "test-a--b--2"]);
         assert!(svg.contains("<title>a &quot;name&quot; &amp; more</title>") && svg.contains("T &lt; U"));
         assert!(!svg.contains('\u{7}') && svg.contains("Head ing"));
+    }
+
+    #[test]
+    fn a_part_of_a_page_has_roles_and_names_and_neither_colours_nor_ids() {
+        let svg = figure().panels[0].picture.svg_in_page([116.0, 116.0]);
+        assert!(ids_of_well_formed(&svg).is_empty());
+        assert!(svg.starts_with("<svg viewBox=\"0 0 116 116\">") && !svg.contains('#') && !svg.contains("<style"));
+        assert!(svg.contains("<g class=\"obstacle\"><title>a &quot;name&quot; &amp; more</title>"));
+        // eight pixels are free around ten metres in a hundred pixels, and y is up
+        assert!(svg.contains("d=\"M8 108L108 8\""), "{svg}");
     }
 
     #[test]

@@ -4,6 +4,7 @@ use super::nearest::{NearestPair, nearest_pairs};
 use super::sweep::SweptMotion;
 use motion_lab_core::collision::{Checker, Collision, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, Coordinates, T2};
+use motion_lab_core::cspace::Overlay;
 use motion_lab_core::geometry::{Aabb, Footprint, Point2, Shape};
 use motion_lab_core::robots::{AnyRobot, ConfigurationError, Reach, Robot};
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
@@ -261,6 +262,11 @@ impl Anatomy {
         &self.step
     }
 
+    /// The largest step of a slider for coordinate number `index`: pi for an angle, else 5 m.
+    pub fn step_range(&self, index: usize) -> f64 {
+        if self.q.is_angle(index) { PI } else { 5.0 }
+    }
+
     /// Sets the swept tab's motion in coordinate number `index`. An angle is clamped to -pi to pi, because the chart's
     /// line goes the short way. A value that is not finite changes nothing.
     pub fn set_step(&mut self, index: usize, step: f64) {
@@ -298,6 +304,18 @@ impl Anatomy {
                 arm.ik(arm.tip(&q)).into_iter().flatten().map(AnyConfiguration::T2).collect()
             }
             _ => Vec::new(),
+        }
+    }
+
+    /// What is drawn of it over the cells of its configuration space, with the path of its configuration, oldest first.
+    /// The chart line is drawn when the tab is the swept one.
+    pub fn in_space(&self, trace: Vec<AnyConfiguration>) -> Overlay {
+        Overlay {
+            now: Some(self.q),
+            in_contact: self.intersects(),
+            trace,
+            line: (self.tab == Tab::Swept).then(|| [self.q, self.second()]),
+            solutions: self.solutions(),
         }
     }
 

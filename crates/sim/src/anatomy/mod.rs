@@ -36,4 +36,4 @@ pub use frozen::{Anatomy, LENGTHS, THICK_LINKS, Tab, WorldSource};
 pub use nearest::{NearestPair, TIE, nearest_pairs};
 pub use prompt::{Guess, NoGuess, Prompt, PromptSeries};
 pub use sweep::SweptMotion;
-pub use twin::{both_configurations, contact_items, in_the_way, straight_way, twin};
+pub use twin::{both_configurations, contact_items, in_the_way, straight_way, twin, twin_items};

@@ -36,6 +36,13 @@ pub fn both_configurations(robot: &AnyRobot, q: &AnyConfiguration) -> Option<Str
     Some(format!("{} and {}", said(&twin(robot, q)?), said(q)))
 }
 
+/// The other configuration at the position of `q`, drawn pale; empty where there is none.
+pub fn twin_items(robot: &AnyRobot, q: &AnyConfiguration) -> Vec<Item> {
+    let other = twin(robot, q).map(|other| robot.footprint(&other));
+    let name = "the other arm with this tip";
+    other.map_or_else(Vec::new, |there| footprint("other", name, &there, Role::Robot, 0.3))
+}
+
 /// The name of what a robot touches at `q`; `None` where it is free.
 pub fn in_the_way(checker: &Checker<AnyRobot>, q: &AnyConfiguration) -> Option<String> {
     let touched = checker.scene().touched(&checker.robot().footprint(q));

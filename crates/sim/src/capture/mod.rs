@@ -39,4 +39,4 @@ pub use moving::{CaptureSpan, Subject, at_tick, at_tick_with_robots};
 pub use plan::{PlanOutcome, PlanSheet, bounded, judged_words, plan, proven, unit, within_best};
 pub use plot::{RunPlot, plot};
 pub use run_figure::{RunFigure, run_svg, with_names};
-pub use scenes::{AtlasSheet, anatomy, atlas, cspace};
+pub use scenes::{AtlasSheet, anatomy, atlas, cspace, what_is_known};

@@ -5,7 +5,7 @@ use crate::anatomy::{Anatomy, Tab};
 use crate::atlas::{Atlas, GridLayer, names};
 use crate::manifest::Widget;
 use motion_lab_core::configuration::AnyConfiguration;
-use motion_lab_core::cspace::{CellMap, Overlay, cspace_picture};
+use motion_lab_core::cspace::{CellMap, cspace_picture};
 use motion_lab_core::picture::{Figure, Item, Panel, readout, world as draw_world};
 
 /// The query anatomy: these tabs side by side, or one tab with a close-up of the nearest points.
@@ -31,23 +31,10 @@ pub fn anatomy(anatomy: &Anatomy, tabs: &[Tab]) -> Captured {
 /// The workspace, and beside it the configuration space as far as `map` knows it. `trace` is the path of the
 /// configuration, oldest first. The chart line is drawn when the anatomy's tab is the swept one.
 pub fn cspace(anatomy: &Anatomy, map: &CellMap, trace: Vec<AnyConfiguration>) -> Captured {
-    let overlay = Overlay {
-        now: Some(anatomy.q()),
-        in_contact: anatomy.intersects(),
-        trace,
-        line: (anatomy.tab == Tab::Swept).then(|| [anatomy.q(), anatomy.second()]),
-        solutions: anatomy.solutions(),
-    };
-    let progress = map.progress();
-    let share = |part: f64| format!("{:.1} %", 100.0 * part);
-    let known = vec![
-        map.slice().described(),
-        format!("proven free {}, proven blocked {}", share(progress.free), share(progress.blocked)),
-        format!("not known {}, {} cells judged", share(progress.unknown), progress.judged),
-    ];
+    let (known, picture) = (what_is_known(map), cspace_picture(map, &anatomy.in_space(trace)));
     let panels = vec![
         Panel { heading: "workspace".into(), readout: anatomy.readout(), picture: anatomy.picture() },
-        Panel { heading: "configuration space".into(), readout: known, picture: cspace_picture(map, &overlay) },
+        Panel { heading: "configuration space".into(), readout: known, picture },
     ];
     let figure = Figure {
         title: format!("Workspace and configuration space of {}", anatomy.checker().robot().title()),
@@ -56,6 +43,17 @@ pub fn cspace(anatomy: &Anatomy, map: &CellMap, trace: Vec<AnyConfiguration>) ->
         caption: caption(Widget::Cspace, anatomy),
     };
     Captured { figure, notes: notes(anatomy) }
+}
+
+/// What is said of a map's cells, line by line: the slice, and how much of it is known.
+pub fn what_is_known(map: &CellMap) -> Vec<String> {
+    let progress = map.progress();
+    let share = |part: f64| format!("{:.1} %", 100.0 * part);
+    vec![
+        map.slice().described(),
+        format!("proven free {}, proven blocked {}", share(progress.free), share(progress.blocked)),
+        format!("not known {}, {} cells judged", share(progress.unknown), progress.judged),
+    ]
 }
 
 /// A world of the atlas.

@@ -1,6 +1,8 @@
 //! `Lesson`, a hint by itself, for which a link or a page asks.
 
 use super::{Hint, HintTask, Widget};
+use crate::anatomy::{Anatomy, Tab};
+use motion_lab_core::configuration::AnyConfiguration;
 
 /// A hint by itself, for which a link or a page asks by its id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +50,24 @@ impl Lesson {
     /// The lesson that follows it; `None` after the last.
     pub fn next(self) -> Option<Lesson> {
         Lesson::all().skip_while(|lesson| *lesson != self).nth(1)
+    }
+
+    /// The scene in which a lesson of Query or the configuration space begins: its question, nothing of it done yet,
+    /// and the robot at `start` where that is a configuration of it.
+    pub fn scene(self, start: Option<AnyConfiguration>) -> Anatomy {
+        let tab = match self.task {
+            _ if self.widget != Widget::Anatomy => Tab::default(),
+            HintTask::Near => Tab::Witness,
+            HintTask::Hit | HintTask::FreeEnds => Tab::Swept,
+            _ => Tab::Distance,
+        };
+        let mut scene = Anatomy::default().with_tab(tab);
+        scene.show_annulus = self.task == HintTask::TwoPoints;
+        if let Some(q) = start {
+            // another robot's is none of this one's
+            _ = scene.set_q(q);
+        }
+        scene
     }
 
     fn hint(self) -> Option<&'static Hint> {

@@ -12,12 +12,12 @@ use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::{formulas, headline, next_hint};
 use crate::window::ui::paint::sheet::{sheet, split, steady, two_columns};
-use crate::window::ui::tasks_done::of_anatomy;
 use crate::window::ui::{AnatomyState, Command, Dashboard, FrameColours, Notice, UiState};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, in_signs, true_minus};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::anatomy::{Anatomy, LENGTHS, PromptSeries, Tab, WorldSource};
+use motion_lab_sim::lens::done_between;
 use motion_lab_sim::manifest::{HintTask, Widget};
 
 /// Width of the panel beside the paper, points.
@@ -88,7 +88,7 @@ pub fn anatomy_view(
         _ = shown.pressed.get_or_insert(before);
     } else {
         let before = shown.pressed.take().unwrap_or(before);
-        state.did.extend(of_anatomy(&before, &shown.anatomy));
+        state.did.extend(done_between(&before, &shown.anatomy));
     }
 }
 
@@ -161,10 +161,8 @@ fn sliders(ui: &mut Ui, state: &mut UiState) {
         for (i, name) in names.iter().enumerate() {
             let anatomy = &mut state.anatomy.anatomy;
             let mut step = anatomy.step()[i];
-            let (most, takes) = match anatomy.q().is_angle(i) {
-                true => (std::f64::consts::PI, TypedKind::Turn),
-                false => (5.0, TypedKind::Plain),
-            };
+            let most = anatomy.step_range(i);
+            let takes = if anatomy.q().is_angle(i) { TypedKind::Turn } else { TypedKind::Plain };
             let name = format!("step of {}", in_signs(name));
             let typed = NumberInput::new(ui, -most..=most, takes);
             let slider = exact(Slider::new(&mut step, -most..=most), 3, &typed).text(&name);

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::cells::SpaceCells;
 use motion_lab_core::collision::{Checker, Scene};
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::geometry::Footprint;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::atlas::Atlas;
+use motion_lab_sim::lens::SpaceCells;
 
 /// Level of the finest cells: a 64th of the sides.
 const FINEST: u32 = 6;

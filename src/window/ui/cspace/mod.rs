@@ -1,6 +1,5 @@
 //! The configuration space in the window.
 
-mod cells;
 pub(crate) mod linked;
 mod linked_state;
 pub(crate) mod put_at;
@@ -9,7 +8,6 @@ mod torus;
 mod trail;
 pub(crate) mod view;
 
-pub use cells::SpaceCells;
 pub use linked_state::LinkedState;
 pub use state::CspaceState;
 pub use trail::TRAIL;

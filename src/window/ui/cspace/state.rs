@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::cells::SpaceCells;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{CellMap, Slice};
 use motion_lab_core::robots::ConfigurationError;
 use motion_lab_sim::anatomy::Anatomy;
 use motion_lab_sim::capture::{self, Captured};
+use motion_lab_sim::lens::SpaceCells;
 
 /// Level of the finest cells: a 256th of the sides.
 const FINEST: u32 = 8;

@@ -11,16 +11,13 @@ use crate::window::ui::paint::fold::fold;
 use crate::window::ui::paint::frame::{formulas, headline, next_hint, rows_of_words};
 use crate::window::ui::paint::sheet::{sheet, two_columns};
 use crate::window::ui::{Command, Dashboard, FrameColours, UiState};
-use motion_lab_core::cspace::{Overlay, overlay_items};
+use motion_lab_core::cspace::overlay_items;
 use motion_lab_core::geometry::{Aabb, Point2};
-use motion_lab_core::num::wrap;
-use motion_lab_core::picture::{Picture, Role, footprint, readout, readout_lines};
-use motion_lab_core::robots::{AnyRobot, Robot};
-use motion_lab_sim::anatomy::{PromptSeries, Tab, twin};
+use motion_lab_core::picture::{Picture, Role, readout, readout_lines};
+use motion_lab_core::robots::AnyRobot;
+use motion_lab_sim::anatomy::{PromptSeries, Tab, twin_items};
+use motion_lab_sim::lens::remember_in;
 use motion_lab_sim::manifest::{HintTask, Widget};
-
-/// Largest number of points kept in the trace.
-const TRACE: usize = 2000;
 
 /// Radius of the robot's point with its ring, points.
 const POINT: f64 = 6.0;
@@ -155,12 +152,8 @@ fn choices(ui: &mut Ui, state: &mut UiState) {
 /// Shows the workspace, where the robot can be dragged.
 fn workspace(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
     let still = Arc::clone(state.anatomy.backdrop());
-    let mut overlay = state.anatomy.anatomy.overlay();
     let anatomy = &state.anatomy.anatomy;
-    if let Some(other) = twin(anatomy.checker().robot(), &anatomy.q()) {
-        let shape = anatomy.checker().robot().footprint(&other);
-        overlay.items.extend(footprint("other", "the other arm with this tip", &shape, Role::Robot, 0.3));
-    }
+    let overlay = anatomy.overlay().with(twin_items(anatomy.checker().robot(), &anatomy.q()));
     let spoken = format!("workspace. {}", state.anatomy.anatomy.described());
     let on = sheet(ui, paper, spoken, &still, &overlay, look);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
@@ -174,13 +167,7 @@ fn space(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
     let Some(cells) = &state.cspace.cells else { return };
     let anatomy = &state.anatomy.anatomy;
     let (slice, still) = (cells.map().slice().clone(), Arc::clone(cells.picture()));
-    let overlay = Overlay {
-        now: Some(anatomy.q()),
-        in_contact: anatomy.intersects(),
-        trace: state.cspace.trace.clone(),
-        line: (anatomy.tab == Tab::Swept).then(|| [anatomy.q(), anatomy.second()]),
-        solutions: anatomy.solutions(),
-    };
+    let overlay = anatomy.in_space(state.cspace.trace.clone());
     let fit = canvas::fit(&still, paper);
     let regions = cells.names_off(Point2::from(slice.point(&anatomy.q())), &fit);
     let moving = Picture::new(still.name.clone(), still.bounds).with(regions).with(overlay_items(&slice, &overlay));
@@ -198,29 +185,16 @@ fn space(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
     let from = from.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
     let is_on_chart = from.is_some_and(|p| !chart.is_apart(&Aabb::new(p, p)));
     let is_meant = is_on_chart && (on.response.dragged() || on.response.clicked());
-    if let Some(to) = held.filter(|_| is_meant) {
-        let p = if slice.wraps() {
-            [wrap(to.x), wrap(to.y)]
-        } else {
-            [to.x.clamp(min[0], max[0]), to.y.clamp(min[1], max[1])]
-        };
+    if let Some((q, is_over_edge)) = held.filter(|_| is_meant).map(|to| cells.configuration_at(to)) {
         // a point of the slice is a configuration of the robot
-        if state.anatomy.anatomy.set_q(slice.at(p)).is_ok() {
+        if state.anatomy.anatomy.set_q(q).is_ok() {
             remember(state);
             state.did.push(HintTask::MovePoint);
-            if slice.wraps() && p != [to.x, to.y] {
-                state.did.push(HintTask::OverEdge);
-            }
+            state.did.extend(is_over_edge.then_some(HintTask::OverEdge));
         }
     }
 }
 
 fn remember(state: &mut UiState) {
-    let q = state.anatomy.anatomy.q();
-    let trace = &mut state.cspace.trace;
-    if trace.last() != Some(&q) {
-        trace.push(q);
-        let spare = trace.len().saturating_sub(TRACE);
-        trace.drain(..spare);
-    }
+    remember_in(&mut state.cspace.trace, state.anatomy.anatomy.q());
 }

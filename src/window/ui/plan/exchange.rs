@@ -1,11 +1,11 @@
 //! What leaves a plan and comes into it: commands, figures, paths that are played, files.
 
 use super::state::{PlanStage, PlanState};
-use crate::window::ui::cspace::SpaceCells;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::{self, Captured, PlanOutcome, PlanSheet};
+use motion_lab_sim::lens::SpaceCells;
 use motion_lab_sim::plans::{Drawn, PathFile, PathFileError, Task};
 use motion_lab_sim::simulation::{PlayError, PlayedPath};
 

@@ -6,7 +6,6 @@ use bevy::platform::time::Instant;
 
 use super::paces::{PACES, SHOWS_REJECTED};
 use super::work::PlannerWork;
-use crate::window::ui::cspace::SpaceCells;
 use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::picture::{Item, Picture, world as picture_of};
@@ -14,6 +13,7 @@ use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
 use motion_lab_core::random::Seed;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::judged_words;
+use motion_lab_sim::lens::SpaceCells;
 use motion_lab_sim::manifest::HintTask;
 use motion_lab_sim::plans::{
     Bug1Walk, Drawn, JudgedPath, PathLengths, PlannerName, Planners, Task, space_items, workspace_items,

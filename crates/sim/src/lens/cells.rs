@@ -6,6 +6,7 @@ use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{CellMap, Overlay, Region, Slice, cspace_picture, region_items, regions};
 use motion_lab_core::geometry::Point2;
+use motion_lab_core::num::wrap;
 use motion_lab_core::picture::{Anchor, Drawing, Fit, Item, Picture};
 use motion_lab_core::robots::AnyRobot;
 
@@ -67,6 +68,19 @@ impl SpaceCells {
             }
         }
         items
+    }
+
+    /// The configuration of a point of the slice's plane, and whether the way there led over an edge of a torus: beyond
+    /// it the square goes on at the opposite one. Any other slice ends at its edges.
+    pub fn configuration_at(&self, point: Point2) -> (AnyConfiguration, bool) {
+        let slice = self.map.slice();
+        let to = [point.x, point.y];
+        if slice.wraps() {
+            let within = to.map(wrap);
+            return (slice.at(within), within != to);
+        }
+        let (min, max) = (slice.min(), slice.max());
+        (slice.at([to[0].clamp(min[0], max[0]), to[1].clamp(min[1], max[1])]), false)
     }
 
     /// Judges `budget` more cells. Returns whether any remain.
