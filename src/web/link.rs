@@ -4,6 +4,7 @@ mod cited;
 mod error;
 mod limits;
 mod names;
+mod plan;
 mod read;
 #[cfg(test)]
 mod tests;
@@ -26,6 +27,7 @@ use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::manifest::{Lesson, ThemeChoice, Widget};
 use motion_lab_sim::run::{Recipe, Script};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
+pub use plan::LinkedPlan;
 pub use read::ReadLink;
 
 /// A run and what to show of it, as the query of an address: `?v=1&seed=2005&world=lot&tick=600&script=...`.
@@ -51,6 +53,8 @@ pub struct Link {
     /// The chart coordinates of Query's robot, which is the configuration space's too: metres and radians. An empty
     /// list leaves it where it is.
     pub q: Vec<f64>,
+    /// What Plan shows.
+    pub plan: Option<LinkedPlan>,
     /// The paper.
     pub theme: Option<ThemeChoice>,
     /// The input.
@@ -70,6 +74,7 @@ impl Default for Link {
             lesson: None,
             tab: None,
             q: vec![],
+            plan: None,
             theme: None,
             script: Script::empty(),
             digest: None,
@@ -161,8 +166,26 @@ impl Link {
         if let Some(tab) = self.tab {
             field("tab", tab.name());
         }
+        let numbers = |all: &[f64]| all.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
         if !self.q.is_empty() {
-            field("q", &self.q.iter().map(f64::to_string).collect::<Vec<_>>().join(","));
+            field("q", &numbers(&self.q));
+        }
+        if let Some(plan) = &self.plan {
+            field("plan", &format!("{},{}", plan.world, plan.robot));
+            for (name, coordinates) in [("from", &plan.from), ("to", &plan.to)] {
+                if !coordinates.is_empty() {
+                    field(name, &numbers(coordinates));
+                }
+            }
+            if let Some(planner) = plan.planner {
+                field("planner", planner.id());
+            }
+            if let Some(seed) = plan.seed {
+                field("planner_seed", &seed.to_string());
+            }
+            if plan.lies {
+                field("lies", "yes");
+            }
         }
         if let Some(theme) = self.theme {
             field("theme", &theme.name().to_lowercase());

@@ -36,8 +36,26 @@ pub enum LinkError {
     #[error("lesson: no lesson has the id {}", cited(.0))]
     Lesson(String),
     /// Not the coordinates of a configuration.
-    #[error("q: it must be up to {MAX_COORDINATES} numbers, joined by commas, not {}", cited(.0))]
-    Coordinates(String),
+    #[error("{field}: it must be up to {MAX_COORDINATES} numbers, joined by commas, not {}", cited(.text))]
+    Coordinates {
+        /// The field.
+        field: &'static str,
+        /// Its text.
+        text: String,
+    },
+    /// Not a robot of a built-in world.
+    #[error("plan: it must be a built-in world and a robot of it that the lab can plan for, as apartment,Rusty, not {}", cited(.0))]
+    Plan(String),
+    /// An end of a plan that is no configuration of its robot.
+    #[error("{field}: {count} numbers are no configuration of {}, as it is planned", cited(.robot))]
+    Place {
+        /// The field.
+        field: &'static str,
+        /// How many numbers it has.
+        count: usize,
+        /// The robot's name.
+        robot: String,
+    },
     /// A digest that is not 32 hexadecimal digits.
     #[error("digest: it must be 32 hexadecimal digits, not {}", cited(.0))]
     Digest(String),

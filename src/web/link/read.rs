@@ -9,17 +9,38 @@ use super::error::LinkError;
 use super::limits::{
     LINK_VERSION, LINK_VERSION_WITH_FILES, LINK_VERSION_WITH_INPUTS, MAX_COORDINATES, MAX_LINK, MAX_LINK_TICK,
 };
+use super::plan::LinkedPlan;
 use crate::web::inputs;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::manifest::{Lesson, ThemeChoice, Widget};
+use motion_lab_sim::plans::PlannerName;
 use motion_lab_sim::run::Script;
 
 /// The fields that a link has once. It may have several files, a world each.
-const FIELDS: [&str; 13] =
-    ["v", "seed", "world", "sensor", "widget", "lesson", "tab", "q", "theme", "script", "inputs", "tick", "digest"];
+const FIELDS: [&str; 19] = [
+    "v",
+    "seed",
+    "world",
+    "sensor",
+    "widget",
+    "lesson",
+    "tab",
+    "q",
+    "plan",
+    "from",
+    "to",
+    "planner",
+    "planner_seed",
+    "lies",
+    "theme",
+    "script",
+    "inputs",
+    "tick",
+    "digest",
+];
 
 /// The field of a world's file.
 const FILE: &str = "file";
@@ -156,6 +177,41 @@ impl LinkFields {
         Ok(worlds)
     }
 
+    /// The coordinates of a field; none where it is left out.
+    fn coordinates(&mut self, field: &'static str) -> Result<Vec<f64>, LinkError> {
+        let Some(text) = self.take(field) else { return Ok(Vec::new()) };
+        let numbers = text.split(',').map(|number| number.parse().ok().filter(|x: &f64| x.is_finite()));
+        let numbers: Option<Vec<f64>> = numbers.take(MAX_COORDINATES + 1).collect();
+        let numbers = numbers.filter(|all| all.len() <= MAX_COORDINATES);
+        numbers.ok_or(LinkError::Coordinates { field, text })
+    }
+
+    /// What Plan shows; a wrong part of it makes another plan.
+    fn plan(&mut self) -> Result<Option<LinkedPlan>, LinkError> {
+        let Some(text) = self.take("plan") else { return Ok(None) };
+        let named = text.split_once(',');
+        let known = named
+            .and_then(|(world, robot)| Some((World::built_in_names().into_iter().find(|name| *name == world)?, robot)));
+        let Some((world, robot)) = known else { return Err(LinkError::Plan(text)) };
+        let mut plan = LinkedPlan::in_world(world, robot);
+        (plan.from, plan.to) = (self.coordinates("from")?, self.coordinates("to")?);
+        let robot = plan.planned()?.robot;
+        if let Some(id) = self.take("planner") {
+            let suits = |name: &PlannerName| name.suits(&robot).is_ok();
+            let fit: Vec<PlannerName> = PlannerName::ALL.into_iter().filter(suits).collect();
+            let planner = fit.iter().find(|name| name.id() == id);
+            let known = || fit.iter().map(|name| name.id()).collect::<Vec<_>>();
+            plan.planner = Some(*planner.ok_or_else(|| word("planner", id, &known()))?);
+        }
+        plan.seed = self.number("planner_seed", u64::MAX)?.map(Seed);
+        plan.lies = match self.take("lies") {
+            None => false,
+            Some(text) if text == "yes" => true,
+            Some(text) => return Err(word("lies", text, &["yes"])),
+        };
+        Ok(Some(plan))
+    }
+
     /// Takes over what to show; the first field that is wrong is the error, and the others are taken all the same.
     fn show(&mut self, link: &mut Link) -> Result<(), LinkError> {
         let mut wrong = Ok(());
@@ -178,13 +234,13 @@ impl LinkFields {
                 None => refuse(word("tab", text, &Tab::ALL.map(Tab::name))),
             }
         }
-        if let Some(text) = self.take("q") {
-            let numbers = text.split(',').map(|number| number.parse().ok().filter(|x: &f64| x.is_finite()));
-            let numbers: Option<Vec<f64>> = numbers.take(MAX_COORDINATES + 1).collect();
-            match numbers.filter(|all| all.len() <= MAX_COORDINATES) {
-                Some(numbers) => link.q = numbers,
-                None => refuse(LinkError::Coordinates(text)),
-            }
+        match self.coordinates("q") {
+            Ok(q) => link.q = q,
+            Err(error) => refuse(error),
+        }
+        match self.plan() {
+            Ok(plan) => link.plan = plan,
+            Err(error) => refuse(error),
         }
         if let Some(text) = self.take("theme") {
             match ThemeChoice::ALL.into_iter().find(|t| t.name().to_lowercase() == text) {

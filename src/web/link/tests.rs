@@ -1,6 +1,7 @@
 //! Links read back as written, whatever is in them; hostile ones are refused by name.
 
 mod digits;
+mod plan;
 
 use percent_encoding::utf8_percent_encode;
 
@@ -36,6 +37,7 @@ fn a_link_reads_back_as_it_was_written() {
         lesson: Some(Lesson::of("pick_wall").unwrap()),
         tab: Some(Tab::Witness),
         q: vec![-0.5, 1e-9, 3.0],
+        plan: Some(LinkedPlan { lies: true, ..LinkedPlan::in_world("apartment", "Rusty") }),
         theme: Some(ThemeChoice::Dark),
         script: driven(),
         digest: Some("0123456789abcdef0123456789abcdef".into()),

@@ -4,14 +4,16 @@ use bevy::ecs::world::World;
 
 use super::error::PageError;
 use super::report::LinkedTheme;
-use crate::web::link::{Link, ReadLink, requoted};
+use crate::web::link::{Link, LinkedPlan, ReadLink, requoted};
 use crate::window::for_page::{Interface, SessionError, new_run, shown_run};
 use crate::window::ui::{AnatomyState, Notice};
 use motion_lab_core::configuration::Configuration as _;
 use motion_lab_sim::anatomy::Anatomy;
 use motion_lab_sim::manifest::{ThemeChoice, Widget};
+use motion_lab_sim::plans::PlannerName;
 use motion_lab_sim::run::Digest;
 use motion_lab_sim::simulation::{Playback, Transport, recipe, seek};
+use motion_lab_sim::tour::BOOK_SEED;
 
 /// The run that is there before an address is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,8 +30,8 @@ pub fn show_address(world: &mut World, address: ReadLink, before: RunBefore) {
     let mut refused = run.and(view).err().map(|error| error.to_string());
     let refusal = show_view(world, &link);
     refused = refused.or(refusal.map(|why| format!("q: {why}")));
-    let Link { widget, lesson, tab, q, theme, .. } = link.clone();
-    let has_run = link != (Link { widget, lesson, tab, q, theme, ..Link::default() });
+    let Link { widget, lesson, tab, q, plan, theme, .. } = link.clone();
+    let has_run = link != (Link { widget, lesson, tab, q, plan, theme, ..Link::default() });
     if has_run || before == RunBefore::Other {
         let told = open_link(world, &link);
         let notice = told.unwrap_or_else(|error| Some(refusal_of(&requoted(&error))));
@@ -64,6 +66,13 @@ fn show_view(world: &mut World, link: &Link) -> Option<String> {
     let refusal = if link.q.is_empty() { None } else { put(query, &link.q).err() };
     if let Some(lesson) = ui.lesson.as_mut().filter(|_| !link.q.is_empty()) {
         lesson.start = Some(query.q());
+    }
+    // it was read, so its robot is there
+    if let Some((plan, Ok(planned))) = link.plan.as_ref().map(|plan| (plan, plan.planned())) {
+        ui.plan.show((&plan.robot, planned.robot), planned.world.into(), planned.start, planned.goal);
+        ui.plan.set_planner(plan.planner.unwrap_or(PlannerName::default_for(&planned.robot)));
+        ui.plan.set_seed(plan.seed.unwrap_or(BOOK_SEED));
+        ui.plan.set_sensor_lies(plan.lies);
     }
     if let Some(theme) = link.theme {
         let shown = std::mem::replace(&mut ui.settings.theme, theme);
@@ -125,6 +134,9 @@ pub fn link_of(world: &World) -> Result<Link, PageError> {
     if matches!(ui.widget, Widget::Anatomy | Widget::Cspace) && is_books(&ui.anatomy.anatomy) {
         link.tab = Some(ui.anatomy.anatomy.tab).filter(|_| ui.widget == Widget::Anatomy);
         link.q = ui.anatomy.anatomy.q().coordinates().to_vec();
+    }
+    if ui.widget == Widget::Plan && link.lesson.is_none() {
+        link.plan = LinkedPlan::of(ui.plan.task(), ui.plan.planner(), ui.plan.seed());
     }
     link.theme = Some(ui.settings.theme).filter(|t| *t != ThemeChoice::System);
     Ok(link)

@@ -92,10 +92,10 @@ lab("the seed at which Bug1's sensor misleads it is found by walking", "/", asyn
     await send(frame, { do: "act", id, action, value });
     await page.waitForTimeout(300); // a list opens
   };
-  for (const [list, choice] of [["^robot", "^Rusty, Apartment$"], ["^planner", "^Bug1 by its sensor$"], ["a second", "^as fast as possible$"]]) {
-    await act("combo", list);
-    await act("button", choice);
-  }
+  // the figure's address has robot, planner and ends
+  await seen(frame, () => window.received.state.plan.planner === "bug1-sensor" && window.received.state.plan.robot === "Rusty" && String(window.received.state.plan.goal) === "9.75,6.25,0");
+  await act("combo", "a second");
+  await act("button", "^as fast as possible$");
   await act("check", "^the sensor lies$");
   for (const [seed, says] of [["2021", "^Seeds walked: 1\\. It gave up at 0 of them\\.$"], ["2022", "^Seeds walked: 2\\. It gave up at 1 of them; at 2022, because it never came back to "]]) {
     assert.equal(await page.locator("#bug .then").isVisible(), false);

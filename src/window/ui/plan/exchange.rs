@@ -1,6 +1,10 @@
 //! What leaves a plan and comes into it: commands, figures, paths that are played, files.
 
+use std::sync::Arc;
+
+use super::panel::goal_for;
 use super::state::{PlanStage, PlanState};
+use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
@@ -61,6 +65,19 @@ impl PlanState {
         (self.work, self.stage) = (None, PlanStage::Read(name.to_owned(), judged));
         self.draw(drawn);
         Ok(())
+    }
+
+    /// Shows the plan of a robot of this name in a world, from `start` to `goal`, or to a goal to begin with.
+    pub fn show(
+        &mut self,
+        (name, robot): (&str, AnyRobot),
+        world: Arc<World>,
+        start: AnyConfiguration,
+        goal: Option<AnyConfiguration>,
+    ) {
+        let goal = goal.unwrap_or_else(|| goal_for(&robot, &world, start));
+        let scene = Arc::new(Scene::of_world(&world));
+        self.take(Task::in_scene(name, robot, (world, scene), [start, goal]));
     }
 
     /// The widget as a figure.

@@ -21,7 +21,7 @@ use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::{bounded, judged_words, proven, unit, within_best};
-use motion_lab_sim::plans::{PathLengths, PlannerName, TUBE, Task};
+use motion_lab_sim::plans::{PathLengths, PlannerName, TUBE};
 
 /// Width of a chooser, points.
 const WIDTH: f32 = 180.0;
@@ -156,9 +156,7 @@ fn task_choice(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
         for (name, robot, q, world, place) in tasks(state.atlas.world(), model) {
             let words = named(&name, &robot, &world, place);
             if ui.selectable_label(words == shown, words).clicked() {
-                let goal = goal_for(&robot, &world, q);
-                let scene = Arc::new(Scene::of_world(&world));
-                state.plan.take(Task::in_scene(name, robot, (world, scene), [q, goal]));
+                state.plan.show((&name, robot), world, q, None);
             }
         }
     });
@@ -166,7 +164,7 @@ fn task_choice(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
 
 /// A goal to begin with: the chapter's round the post, another room, bay 2; elsewhere a place of the world's, or the
 /// start itself.
-fn goal_for(robot: &AnyRobot, world: &World, start: AnyConfiguration) -> AnyConfiguration {
+pub fn goal_for(robot: &AnyRobot, world: &World, start: AnyConfiguration) -> AnyConfiguration {
     use std::f64::consts::FRAC_PI_2;
     let at = |coordinates: &[f64]| start.with_coordinates(coordinates);
     let own = match (robot, &*world.name) {
