@@ -34,12 +34,15 @@ impl PageLens {
     /// What is no lens that stands still, or no place of its robot.
     #[wasm_bindgen(constructor)]
     pub fn new(query: &str) -> Result<Self, JsError> {
-        let ReadLink { link, .. } = Link::read(query);
+        let ReadLink { link, view, .. } = Link::read(query);
+        view?;
         let widget = link.lesson.map(|lesson| lesson.widget).or(link.widget);
         let widget = widget.or(link.tab.map(|_| Widget::Anatomy)).unwrap_or(Widget::Dashboard);
         let mut scene = link.lesson.map_or_else(Anatomy::default, |lesson| lesson.scene(None));
         scene.tab = link.tab.unwrap_or(scene.tab);
-        put(&mut scene, &link.q)?;
+        if !link.q.is_empty() {
+            put(&mut scene, &link.q)?;
+        }
         let refusal = || JsError::new(&format!("{} does not stand still", widget.id()));
         Ok(PageLens { lens: Lens::new(widget, scene).ok_or_else(refusal)?, lesson: link.lesson })
     }
@@ -97,7 +100,9 @@ impl PageLens {
         let (widget, anatomy) = (self.lens.widget(), self.lens.anatomy());
         let tab = (widget == Widget::Anatomy).then_some(anatomy.tab);
         let q = anatomy.q().coordinates().to_vec();
-        Ok(Link { widget: Some(widget), lesson: self.lesson, tab, q, ..Link::default() }.query()?)
+        // a lesson has a question of its own
+        let lesson = self.lesson.filter(|lesson| tab.is_none() || tab == Some(lesson.scene(None).tab));
+        Ok(Link { widget: Some(widget), lesson, tab, q, ..Link::default() }.query()?)
     }
 
     /// The figure of it, as an SVG file.
@@ -113,6 +118,16 @@ impl PageLens {
     /// Where the hand takes hold on a paper of this size; empty where the lens has not this paper.
     pub fn handle(&self, is_space: bool, width: f64, height: f64) -> Vec<f64> {
         self.lens.handle(paper(is_space), [width, height]).map_or_else(Vec::new, Vec::from)
+    }
+
+    /// Whether a press at a point of a paper of this size takes hold.
+    pub fn takes(&self, is_space: bool, width: f64, height: f64, x: f64, y: f64) -> bool {
+        self.lens.takes(paper(is_space), [width, height], [x, y])
+    }
+
+    /// Moves a coordinate by so much.
+    pub fn nudge(&mut self, index: usize, by: f64) {
+        self.lens.nudge(index, by);
     }
 
     /// Drags what is held on a paper of this size to a point of it.
@@ -145,8 +160,7 @@ impl PageLens {
     pub fn put(&mut self, coordinates: &[f64]) -> Result<(), JsError> {
         let mut scene = self.lens.anatomy().clone();
         put(&mut scene, coordinates)?;
-        self.lens.change(|anatomy| *anatomy = scene);
-        self.lens.let_go();
+        self.lens.set(|anatomy| *anatomy = scene);
         Ok(())
     }
 
@@ -157,29 +171,23 @@ impl PageLens {
     pub fn ask(&mut self, id: &str) -> Result<(), JsError> {
         let tab = Tab::ALL.into_iter().find(|tab| tab.name() == id);
         let tab = tab.ok_or_else(|| JsError::new(&format!("{id}: no question of Query")))?;
-        self.lens.change(|anatomy| anatomy.tab = tab);
-        self.lens.let_go();
+        self.lens.set(|anatomy| anatomy.tab = tab);
         Ok(())
     }
 
     /// Makes an arm's links thick, or bare.
     pub fn set_thick(&mut self, is_thick: bool) {
-        self.lens.change(|anatomy| anatomy.set_thick_links(is_thick));
-        self.lens.let_go();
+        self.lens.set(|anatomy| anatomy.set_thick_links(is_thick));
     }
 
     /// Shows what an arm's tip can reach, or not.
     pub fn show_annulus(&mut self, is_shown: bool) {
-        self.lens.change(|anatomy| anatomy.show_annulus = is_shown);
-        self.lens.let_go();
+        self.lens.set(|anatomy| anatomy.show_annulus = is_shown);
     }
 }
 
-/// Puts a scene's robot at coordinates; none leave it where it is.
+/// Puts a scene's robot at coordinates.
 fn put(scene: &mut Anatomy, coordinates: &[f64]) -> Result<(), JsError> {
-    if coordinates.is_empty() {
-        return Ok(());
-    }
     let count = scene.q().coordinates().len();
     let refusal = || JsError::new(&format!("the robot has {count} coordinates"));
     let q = scene.q().with_coordinates(coordinates).ok_or_else(refusal)?;

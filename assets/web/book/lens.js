@@ -49,7 +49,7 @@ function measure() {
   const { width } = $("papers").getBoundingClientRect();
   const each = papers.length > 1 && width >= 480 ? (width - 12) / papers.length : width;
   for (const paper of papers) {
-    const side = Math.min(each - 2, WIDEST);
+    const side = Math.max(1, Math.min(each - 2, WIDEST));
     const size = [Math.floor(side), Math.floor(side * paper.aspect)];
     Object.assign(paper.box.style, { width: `${size[0] + 2}px`, height: `${size[1] + 2}px` });
     if (String(size) === String(paper.size)) continue;
@@ -106,6 +106,7 @@ function slide(sliders) {
         const row = document.createElement("label");
         const input = Object.assign(document.createElement("input"), { type: "range", step: "any" });
         row.append(document.createElement("span"), input, document.createElement("output"));
+        row.lastChild.setAttribute("aria-live", "off"); // the slider itself says its value
         return row;
       }),
     );
@@ -113,12 +114,13 @@ function slide(sliders) {
   sliders.forEach(({ name, value, least, most, set }, i) => {
     const [label, input, output] = rows[i].children;
     label.textContent = name;
+    input.setAttribute("aria-label", name);
     const step = (most - least) / 1000;
     Object.assign(input, { min: least, max: most, step });
     // a slider stands on a step: being shown does not move it
     if (Math.abs(input.value - value) > step) input.value = value;
     input.oninput = () => (set(Number(input.value)), change());
-    input.onchange = () => (lens.let_go(), change());
+    input.onchange = () => (lens.let_go(), change(), sayAnswer());
     output.textContent = value.toFixed(4).replace("-", "\u2212");
   });
 }
@@ -142,8 +144,15 @@ function choose({ thick, annulus }) {
   wanted.forEach(([, on, set], i) => {
     const input = boxes.children[i].firstElementChild;
     input.checked = on;
-    input.onchange = () => (set(input.checked), change());
+    input.onchange = () => (set(input.checked), change(), sayAnswer());
   });
+}
+
+let saying; // the timer of the answer that is said
+/** Says the answer once what was moved stands. */
+function sayAnswer() {
+  clearTimeout(saying);
+  saying = setTimeout(() => ($("told").textContent = $("answer").textContent), 400);
 }
 
 /** A hand on a paper: a mouse takes the robot to where it presses, a finger takes hold of it, arrow keys move it. */
@@ -161,7 +170,7 @@ function hold({ space, box, ...paper }) {
   let held = null; // the pointer that holds
   box.addEventListener("touchstart", (event) => event.touches.length === 1 && isNear(event.touches[0]) && event.preventDefault(), { passive: false });
   box.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0 || (event.pointerType === "touch" && !isNear(event))) return;
+    if (event.button !== 0 || !lens.takes(space, ...sizeOf(), ...at(event)) || (event.pointerType === "touch" && !isNear(event))) return;
     held = event.pointerId;
     box.setPointerCapture(held);
     if (event.pointerType !== "touch") drag(event);
@@ -179,15 +188,14 @@ function hold({ space, box, ...paper }) {
     const by = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowDown: [1, -1], ArrowUp: [1, 1] }[event.key];
     if (!by || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
-    const { coordinates } = JSON.parse(lens.state()).query;
-    lens.set_coordinate(by[0], coordinates[by[0]] + by[1] * (event.shiftKey ? 0.005 : 0.05));
+    lens.nudge(by[0], by[1] * (event.shiftKey ? 0.005 : 0.05));
     change();
   });
   box.addEventListener("keyup", ({ key }) => {
     if (!key.startsWith("Arrow")) return;
     lens.let_go();
     change();
-    setTimeout(() => ($("told").textContent = $("answer").textContent), 400); // once it stands
+    sayAnswer();
   });
   // what is pointed at lights here and in the words around
   box.addEventListener("pointerover", ({ target, buttons }) => {
@@ -197,7 +205,7 @@ function hold({ space, box, ...paper }) {
 }
 
 function light(role) {
-  if (role === lit) return;
+  if (role === lit || !lens) return;
   lit = role;
   if (role) root.dataset.lit = role;
   else delete root.dataset.lit;
@@ -253,13 +261,14 @@ const doing = {
     tellState();
   },
   figure: ({ request }) => tell({ kind: "figure", svg: lens.figure(isDark()), request }),
-  link: ({ request }) => tell({ kind: "link", query: lens.link(), digest: null, request }),
+  link: ({ request }) => tell({ kind: "link", query: address(), digest: null, request }),
 };
 const ANSWERED = ["figure", "link"];
 
 function ask(message) {
   const act = Object.hasOwn(doing, message.do) ? doing[message.do] : null;
   try {
+    if (!lens && message.do !== "open") throw new Error("the figure is not there yet");
     if (!act) throw new Error(`${String(message.do).slice(0, 20)}: this figure stands still; the whole lab does that`);
     act(message);
     if (message.request !== undefined && !ANSWERED.includes(message.do)) tell({ kind: "done", request: message.request });
@@ -271,20 +280,27 @@ function ask(message) {
 const refuse = (text, request) => tell({ kind: "error", text, request });
 const tellAround = around({ ask, askReader: (request) => refuse("save: this figure has no run", request), refuse });
 
+/** The address of what is shown. */
+const address = () => lens.link() + (root.dataset.theme ? `&theme=${root.dataset.theme}` : "");
+
 /** Shows the lens of an address. */
 function open(query) {
   const other = new wasm_bindgen.PageLens(query);
   const theme = new URLSearchParams(query).get("theme");
   if (["light", "dark"].includes(theme)) root.dataset.theme = theme;
+  else delete root.dataset.theme;
+  light(null);
   lens?.free();
   lens = other;
-  [began, isDone] = [performance.now(), false];
+  [began, isDone, height] = [performance.now(), false, 0];
+  $("lens").hidden = false;
+  Object.assign($("whole"), { disabled: false, textContent: "The whole lab" });
   makePapers();
   const isAnatomy = JSON.parse(lens.state()).widget === "anatomy";
   $("tabs").replaceChildren(
     ...(isAnatomy ? TABS : []).map((id) => {
       const button = Object.assign(document.createElement("button"), { type: "button", textContent: id });
-      button.addEventListener("click", () => ask({ do: "tab", id }));
+      button.addEventListener("click", () => (ask({ do: "tab", id }), sayAnswer()));
       return button;
     }),
   );
@@ -294,17 +310,19 @@ function open(query) {
   change();
 }
 
+/** Whether the page around has figures that share this frame, and the lab's. */
+const isShared = location.hash === "#shared";
+
 $("whole").addEventListener("click", () => {
-  if (parent === window) location.href = `index.html?${lens.link()}`;
-  else tell({ kind: "whole" });
+  if (!isShared) return (location.href = `${parent === window ? "index" : "embed"}.html?${address()}`);
+  Object.assign($("whole"), { disabled: true, textContent: "Loading the lab" });
+  tell({ kind: "whole" });
 });
 
 try {
   await wasm_bindgen({ module_or_path: JSON.parse($("files").textContent).lightWasm });
-  $("lens").hidden = false;
-  open((location.search || location.hash).replace(/^[?#]/, ""));
-  new ResizeObserver(change).observe($("papers"));
-  addEventListener("resize", change);
+  if (!isShared) open((location.search || location.hash).replace(/^[?#]/, ""));
+  new ResizeObserver(() => lens && change()).observe($("papers"));
   window.motionLab = { send: ask };
   tell({ kind: "ready" });
 } catch (error) {

@@ -21,7 +21,9 @@ let count = 0;
 class Frame {
   element = null;
   ready = false; // whether what is in it draws
-  untaken = null; // the mark of an address that it has not taken yet: its states are still another figure's
+  failed = false; // whether it never will
+  shows = null; // the figure whose address it was given last
+  untaken = null; // the mark of an address that it has not taken: its states are still another figure's
   #page;
 
   constructor(page) {
@@ -34,7 +36,8 @@ class Frame {
     this.element.className = "motion-figure";
     this.element.allow = "clipboard-write";
     this.element.tabIndex = -1; // a figure's link is the one stop of Tab: Enter goes in
-    this.element.src = new URL(`${this.#page}?${query}`, LAB);
+    // a lens is given its first address as any other, so that it may refuse it
+    this.element.src = new URL(this === lens ? `${this.#page}#shared` : `${this.#page}?${query}`, LAB);
     // pictures that come late move what is below them, and a body of the screen's height does not grow with them
     for (const part of document.body.children) sizes.observe(part);
     document.body.append(this.element);
@@ -58,17 +61,23 @@ class Frame {
     return request;
   }
 
-  /** Shows an address in the figure in front. */
-  open(query) {
+  /** Shows a figure as its reader left it; when it is not there yet, as soon as it is. */
+  show(figure) {
+    const query = kept.get(figure) ?? figure.query;
     if (!this.element) this.begin(query);
-    else if (this.ready) this.untaken = this.askFor(front, { do: "open", query });
-    else kept.set(front, query); // it is opened once the lab is there
+    else if (this.ready) this.untaken = this.askFor(figure, { do: "open", query });
+    else return;
+    this.shows = figure;
   }
 
   /** Whether nobody sees it from now on, nor hears of it. */
   wait(waits) {
     this.element.toggleAttribute("data-waits", waits);
     this.element.inert = waits;
+  }
+
+  get hasFocus() {
+    return this.element !== null && document.activeElement === this.element;
   }
 }
 const lab = new Frame("embed.html");
@@ -77,39 +86,55 @@ const lens = new Frame("lens.html");
 /** Tells the page what comes of a figure. */
 const tell = (figure, detail) => figure.dispatchEvent(new CustomEvent("motionlab", { bubbles: true, detail }));
 
-/** Lays the frame over its figure, wherever the page has put either. */
+/** Lays the frames over the figure in front, wherever the page has put either; the one that waits is not in the way. */
 function place() {
   if (!front) return;
-  const { element } = front.frame;
-  const [over, at] = [front, element].map((shown) => shown.getBoundingClientRect());
-  const lengths = { left: (parseFloat(element.style.left) || 0) + over.left - at.left, top: (parseFloat(element.style.top) || 0) + over.top - at.top, width: over.width, height: over.height };
-  for (const [side, length] of Object.entries(lengths)) element.style.setProperty(side, `${length}px`);
+  for (const { element } of [lab, lens]) {
+    if (!element) continue;
+    const [over, at] = [front, element].map((shown) => shown.getBoundingClientRect());
+    const lengths = { left: (parseFloat(element.style.left) || 0) + over.left - at.left, top: (parseFloat(element.style.top) || 0) + over.top - at.top, width: over.width, height: over.height };
+    for (const [side, length] of Object.entries(lengths)) element.style.setProperty(side, `${length}px`);
+  }
 }
 
 /** A frame serves a figure from now on, as its reader left it. */
 function serve(figure) {
   if (front === figure) return;
-  if (front) leave(figure.frame);
+  const before = front?.frame;
+  const hadFocus = before?.hasFocus;
+  if (front) leave();
   front = figure;
   figure.toggleAttribute("opened", true);
   figure.toggleAttribute("live", true);
   const { frame } = figure;
-  frame.open(kept.get(figure) ?? figure.query);
+  if (frame.shows !== figure || !frame.ready) frame.show(figure);
+  else frame.ask({ do: "state" }); // it is there as it was left
+  if (before && before !== frame) {
+    if (before === lab) lab.ask({ do: "pause" }); // what nobody sees need not move
+    before.wait(true);
+  }
   frame.element.title = figure.label;
   frame.wait(!frame.ready);
+  // keys go to what is seen
+  if (hadFocus && before !== frame) focus(figure);
   sizes.observe(figure);
   place();
 }
 
+/** The keys go to a figure: into its frame, or to its link until that is there. */
+function focus({ frame, link }) {
+  if (frame.ready) frame.element.contentWindow.focus();
+  else link.focus({ preventScroll: true });
+}
+
 /** Keeps the picture and the state of the figure in front, which its frame leaves; another one may come. */
-function leave(next) {
+function leave() {
   const { frame } = front;
   front.removeAttribute("live");
   sizes.unobserve(front);
-  if (frame.ready && !frame.untaken) for (const what of ["figure", "link"]) frame.askFor(front, { do: what });
-  if (frame === next) return;
-  if (frame === lab) lab.ask({ do: "pause" }); // what nobody sees need not move
-  frame.wait(true);
+  if (!frame.ready) return;
+  frame.ask({ do: "light", role: null });
+  if (!frame.untaken) for (const what of ["figure", "link"]) frame.askFor(front, { do: what });
 }
 
 /** How far a figure is from the reading line: infinitely, unless it is well in view. */
@@ -120,8 +145,8 @@ function off(figure) {
 
 /** Serves the figure that was asked for and is nearest to the reading line; who is within one in view keeps it. */
 function follow() {
-  if (!front?.frame.ready || (document.activeElement === front.frame.element && off(front) < Infinity)) return;
-  const seen = [...figures].filter((figure) => figure.hasAttribute("opened") && off(figure) < Infinity);
+  if (!front || (front.frame.hasFocus && off(front) < Infinity)) return;
+  const seen = [...figures].filter((figure) => figure.hasAttribute("opened") && figure.frame.ready && off(figure) < Infinity);
   const [nearest = front] = seen.sort((a, b) => off(a) - off(b));
   serve(nearest);
 }
@@ -141,11 +166,16 @@ const hear = {
   ready(frame) {
     frame.ready = true;
     frame.say("Try it");
-    // the reader may have gone on meanwhile
-    if (front.frame !== frame) return;
+    // the reader may have moved the lens meanwhile
+    if (frame === lab && front.frame === lens && front.wantsAll) return lens.askFor(front, { do: "link" });
+    if (front.frame !== frame) {
+      // the reader has gone on meanwhile
+      if (frame === lab) lab.ask({ do: "pause" });
+      return follow();
+    }
     frame.wait(false);
-    if (front.contains(document.activeElement)) frame.element.contentWindow.focus();
-    if (kept.has(front)) frame.open(kept.get(front));
+    if (front.contains(document.activeElement)) focus(front);
+    if (frame === lens || frame.shows !== front || kept.has(front)) frame.show(front);
   },
   figure(_, { request, svg }) {
     const image = marks.get(request)?.querySelector("img");
@@ -154,26 +184,52 @@ const hear = {
     image.src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
   },
   // what does not fit in an address begins anew
-  link(_, { request, query }) {
+  link(frame, { request, query }) {
     const figure = marks.get(request);
     if (!query || !figure) return;
     kept.set(figure, query);
-    figure.goesOn?.();
+    if (!figure.wantsAll || front !== figure) return;
+    if (lab.ready) {
+      lab.shows = null;
+      figure.becomeWhole();
+    } else if (!lab.element) {
+      // the lens stays until the lab is there
+      lab.begin(query);
+      lab.wait(true);
+      place();
+    }
   },
-  leave: () => front.link.focus(),
+  leave: (frame) => front.frame === frame && front.link.focus(),
   // its reader asks for all that the lab has
   whole(frame) {
-    const figure = front;
-    figure.goesOn = () => {
-      delete figure.goesOn;
-      figure.becomeWhole();
-    };
-    frame.askFor(figure, { do: "link" });
+    if (frame !== lens || front.frame !== lens) return;
+    front.wantsAll = true;
+    lens.askFor(front, { do: "link" });
   },
   height: (frame, { height }) => front.frame === frame && Number.isFinite(height) && front.link.style.setProperty("height", `${height}px`),
+  error(frame, { request }) {
+    // an address of something that moves after all
+    if (frame === lens && request && request === lens.untaken) marks.get(request).becomeWhole();
+  },
   failed(frame) {
-    if (frame === lens) front.becomeWhole();
-    else front.removeAttribute("live");
+    const figure = front;
+    const serves = figure.frame === frame;
+    frame.failed = true;
+    if (frame === lens) {
+      // the lab serves the figures of a lens that can't be loaded
+      const hadFocus = lens.hasFocus;
+      if (lab.ready) lab.say("Try it");
+      if (!serves) return;
+      lens.wait(true);
+      front = null;
+      serve(figure);
+      if (hadFocus) focus(figure);
+    } else if (serves) {
+      figure.removeAttribute("live");
+    } else if (figure.wantsAll) {
+      figure.wantsAll = false;
+      lens.show(figure); // which lets its reader ask again
+    }
   },
 };
 addEventListener("message", ({ source, origin, data }) => {
@@ -182,7 +238,8 @@ addEventListener("message", ({ source, origin, data }) => {
   if (!said || !frame || origin !== ORIGIN) return;
   hear[said.kind]?.(frame, said);
   const isOurs = marks.delete(said.request);
-  if (isOurs && said.request === frame.untaken) frame.untaken = null;
+  // who refuses an address still shows another figure
+  if (isOurs && said.request === frame.untaken && said.kind !== "error") frame.untaken = null;
   // what comes before the lab has taken the address is another figure's
   if (!isOurs && !frame.untaken && front.frame === frame) tell(front, said);
 });
@@ -196,14 +253,15 @@ export class MotionFigure extends HTMLElement {
     return this.getAttribute("query") ?? "";
   }
 
-  /** Whether its reader has asked for all that the lab has. */
+  /** Whether its reader has asked for all that the lab has, and whether the lab has come. */
+  wantsAll = false;
   #whole = false;
 
   /** The frame that serves it. */
   get frame() {
     const fields = new URLSearchParams(this.query);
     const widget = fields.get("widget") ?? (fields.has("tab") ? "anatomy" : "dashboard");
-    return STILL.includes(widget) && !this.#whole ? lens : lab;
+    return STILL.includes(widget) && !this.#whole && !lens.failed ? lens : lab;
   }
 
   get label() {
@@ -242,7 +300,7 @@ export class MotionFigure extends HTMLElement {
   /** The lab serves this figure, and has the keys. */
   enter() {
     serve(this);
-    if (this.frame.ready) this.frame.element.contentWindow.focus();
+    if (this.frame.ready) focus(this);
     tell(this, { kind: "enter" });
   }
 
@@ -252,20 +310,24 @@ export class MotionFigure extends HTMLElement {
     fields.delete("lesson");
     new URLSearchParams(query).forEach((value, field) => fields.set(field, value));
     kept.set(this, fields.toString());
-    if (front === this) this.frame.open(kept.get(this));
-    else serve(this);
+    if (front === this) return this.frame.show(this);
+    if (this.frame.shows === this) this.frame.shows = null;
+    serve(this);
   }
 
-  /** All that the lab has serves this figure from now on, as it is. */
+  /** The lab serves this figure from now on, as it is. */
   becomeWhole() {
-    if (front !== this || this.#whole) return;
-    front = null;
-    this.frame.wait(true);
+    if (this.#whole) return;
+    const hadFocus = lens.hasFocus;
     this.#whole = true;
+    this.wantsAll = false;
     this.link.style.removeProperty("height");
+    if (lens.shows === this) [lens.shows, lens.untaken] = [null, null];
+    if (front !== this) return;
+    front = null;
+    lens.wait(true);
     serve(this);
-    if (lab.ready) lab.element.contentWindow.focus();
-    else this.link.focus();
+    if (hadFocus) focus(this);
   }
 
   /** Asks the lab for something, if it serves this figure; docs/web/messages.md has what there is. */

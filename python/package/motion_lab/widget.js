@@ -14,8 +14,8 @@ async function render({ model, el }) {
     if (source !== frame.contentWindow || !data?.motionLab) return;
     const { tick, playing, verdict } = data.motionLab;
     hears = true;
-    // the first that it says is no answer to where it was to be
-    model.set(begun ? { tick, playing, verdict } : { verdict });
+    // the first that it says is no answer to where it was to be; a page that fails is at no tick
+    model.set(begun && tick !== null ? { tick, playing, verdict } : { verdict });
     hears = false;
     model.save_changes();
     if (!begun) {

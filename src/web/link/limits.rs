@@ -27,6 +27,9 @@ pub const LONG: usize = 2000;
 /// Most coordinates of a configuration.
 pub const MAX_COORDINATES: usize = 16;
 
+/// Largest seed of a planner's samples: what its field in the window takes.
+pub const MAX_PLANNER_SEED: u64 = u32::MAX as u64;
+
 /// Largest tick of a link: an hour. Opening a link simulates its run up to that tick.
 pub const MAX_LINK_TICK: u64 = 72_000;
 

@@ -1,6 +1,7 @@
 //! `LinkedPlan`, what an address says of a plan.
 
 use super::error::LinkError;
+use super::limits::MAX_PLANNER_SEED;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::AnyRobot;
@@ -50,9 +51,9 @@ impl LinkedPlan {
         let world =
             World::built_in_names().into_iter().find(|name| World::built_in(name).as_ref() == Some(&*task.world))?;
         let [from, to] = [&task.start, &task.goal].map(|q| q.coordinates().to_vec());
-        let (planner, seed) = (Some(planner), Some(seed));
-        let plan = LinkedPlan { world, robot: task.name.clone(), from, to, planner, seed, lies: task.noise.is_some() };
-        (plan.planned().ok()?.robot == task.robot).then_some(plan)
+        let (robot, lies) = (task.name.clone(), task.noise.is_some());
+        let plan = LinkedPlan { world, robot, from, to, planner: Some(planner), seed: Some(seed), lies };
+        (plan.planned().ok()?.robot == task.robot && seed.0 <= MAX_PLANNER_SEED).then_some(plan)
     }
 
     /// The robot in its world.

@@ -8,6 +8,7 @@ use super::Link;
 use super::error::LinkError;
 use super::limits::{
     LINK_VERSION, LINK_VERSION_WITH_FILES, LINK_VERSION_WITH_INPUTS, MAX_COORDINATES, MAX_LINK, MAX_LINK_TICK,
+    MAX_PLANNER_SEED,
 };
 use super::plan::LinkedPlan;
 use crate::web::inputs;
@@ -203,7 +204,7 @@ impl LinkFields {
             let known = || fit.iter().map(|name| name.id()).collect::<Vec<_>>();
             plan.planner = Some(*planner.ok_or_else(|| word("planner", id, &known()))?);
         }
-        plan.seed = self.number("planner_seed", u64::MAX)?.map(Seed);
+        plan.seed = self.number("planner_seed", MAX_PLANNER_SEED)?.map(Seed);
         plan.lies = match self.take("lies") {
             None => false,
             Some(text) if text == "yes" => true,

@@ -207,11 +207,15 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
             ui(world, &|ui| ui.anatomy.anatomy.tab = tab)
         }
         Message::Configuration { coordinates } => {
-            let anatomy = &mut world.resource_mut::<Interface>().into_inner().0.anatomy.anatomy;
+            let ui = &mut world.resource_mut::<Interface>().into_inner().0;
+            let anatomy = &mut ui.anatomy.anatomy;
             let known = anatomy.q().with_coordinates(&coordinates);
             let count = anatomy.q().coordinates().len();
             let q = known.ok_or_else(|| PageError::Configuration(format!("it has {count} coordinates")))?;
-            anatomy.set_q(q).map(|()| None).map_err(|error| PageError::Configuration(error.to_string()))
+            anatomy.set_q(q).map_err(|error| PageError::Configuration(error.to_string()))?;
+            // a lesson that the next frame begins would put it elsewhere
+            ui.lesson.iter_mut().filter(|lesson| !lesson.is_ready).for_each(|lesson| lesson.start = Some(q));
+            Ok(None)
         }
         Message::Robot { robot, input } => give(world, robot, input).map(|()| None),
         Message::Door { world: of, name, open } => {

@@ -52,7 +52,8 @@ fn refusal_of(why: &str) -> Notice {
 /// Puts in front what a link names. Returns why Query's robot can't be where it says, if it can't.
 fn show_view(world: &mut World, link: &Link) -> Option<String> {
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-    ui.widget = link.widget.or(link.tab.map(|_| Widget::Anatomy)).unwrap_or_default();
+    let implied = link.tab.map(|_| Widget::Anatomy).or(link.plan.as_ref().map(|_| Widget::Plan));
+    ui.widget = link.widget.or(implied).unwrap_or_default();
     ui.lesson = None;
     if let Some(lesson) = link.lesson {
         ui.begin(lesson);
@@ -66,6 +67,10 @@ fn show_view(world: &mut World, link: &Link) -> Option<String> {
     let refusal = if link.q.is_empty() { None } else { put(query, &link.q).err() };
     if let Some(lesson) = ui.lesson.as_mut().filter(|_| !link.q.is_empty()) {
         lesson.start = Some(query.q());
+    }
+    if ui.widget == Widget::Plan && link.plan.is_none() {
+        // another figure's is none of this one's
+        ui.plan.begin_anew();
     }
     // it was read, so its robot is there
     if let Some((plan, Ok(planned))) = link.plan.as_ref().map(|plan| (plan, plan.planned())) {

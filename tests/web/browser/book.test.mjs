@@ -166,6 +166,34 @@ lab("the lab rests while a figure that stands still is read, and takes that figu
   await page.waitForFunction(() => [...document.querySelectorAll('.live[data-live="query.distance"]')].at(-1).textContent === "0.0000 m");
 }, { wait: false, timeout: 240000 });
 
+lab("a lab that is left before it is there rests; a lens that can't be loaded is the lab's", "/", async (open) => {
+  const { page } = open;
+  await page.goto(`${origin()}/book.html`);
+  await page.click("#three motion-figure");
+  await page.waitForSelector('iframe[src*="embed.html"]', { state: "attached" });
+  await page.click("#witness motion-figure");
+  await page.waitForSelector('iframe[src*="lens.html"]:not([data-waits])', { timeout: 20000 });
+  const whole = page.frames().find((other) => other.url().includes("embed.html"));
+  await seen(whole, () => window.received.kinds.includes("ready") && window.received.state && !window.received.state.playing);
+  // both figures are as high as what is in them
+  const lens = page.frames().find((other) => other.url().includes("lens.html"));
+  const fits = async (id) => {
+    await page.click(`#${id} motion-figure`);
+    await lens.waitForFunction((id) => window.received.state?.widget === (id === "witness" || id === "swept" ? "anatomy" : "cspace"), id);
+    await page.waitForFunction((id) => Math.abs(document.querySelector(`#${id} motion-figure`).getBoundingClientRect().height - frames[[...document.querySelectorAll("iframe")].findIndex((frame) => frame.src.includes("lens.html"))].document.documentElement.querySelector("#lens").getBoundingClientRect().height - 22) < 4, id, { timeout: 10000 });
+  };
+  for (const id of ["torus", "annulus"]) await fits(id);
+
+  await page.route(/\/light\..*\.wasm/, (route) => route.abort());
+  await page.goto(`${origin()}/book.html?again`);
+  await page.click("#witness motion-figure");
+  await page.waitForSelector('iframe[src*="embed.html"]:not([data-waits])', { timeout: 60000 });
+  await page.click("#torus motion-figure");
+  await seen(page.frames().find((other) => other.url().includes("embed.html")), () => window.received.state?.widget === "cspace");
+  const refused = open.faults.splice(0);
+  assert.ok(refused.length > 0 && refused.every((fault) => fault.includes("ERR_FAILED")), refused.join("; "));
+}, { wait: false, timeout: 240000 });
+
 lab("a figure is one stop of Tab: Enter goes in, Escape out", "/", async ({ page }) => {
   await page.goto(`${origin()}/book.html`);
   const stops = await page.evaluate(() => [...document.querySelectorAll("figure.lab a, figure.lab button:not(.term), figure.lab [tabindex]")].filter((e) => e.tabIndex >= 0 && !e.closest("figcaption")).length);

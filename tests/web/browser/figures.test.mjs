@@ -29,6 +29,8 @@ before(async () => {
 ${figure("a", "widget=anatomy&amp;tab=witness&amp;q=0.5,1.25", `<a href="${from}/index.html?tab=witness"><img src="${PICTURE}" alt="An arm"></a>`)}
 ${figure("b", "widget=cspace&amp;q=1,1")}
 ${figure("c", "widget=dashboard&amp;world=lot")}
+${figure("d", "widget=anatomy&amp;lesson=held")}
+${figure("e", "widget=anatomy&amp;tab=distance&amp;q=0.75,1.25")}
 </div></body></html>`,
   );
   server = await serve(folder, 0);
@@ -102,4 +104,20 @@ lab("a page of another origin has figures that share one lab, hears and moves th
   await page.evaluate(() => document.getElementById("a").scrollIntoView({ block: "center" }));
   await page.waitForFunction(() => document.querySelector('iframe[src*="embed"]').hasAttribute("data-waits"));
   assert.deepEqual(await waits(), [["/lens.html", false], ["/embed.html", true]]);
+
+  // what moves after all is the lab's, and costs no other figure its own frame
+  const enter = (id) => page.evaluate((id) => {
+    document.getElementById(id).scrollIntoView({ block: "center" });
+    document.getElementById(id).enter();
+  }, id);
+  await enter("d");
+  await heard("d", "widget", "dashboard");
+  assert.equal(await page.evaluate(() => window.heard.filter(({ id, kind, query }) => id === "d" && kind === "state" && query).length), 0, "no other figure's state");
+  await enter("e");
+  await heard("e", "query.coordinates", "0.75,1.25");
+  assert.deepEqual(await waits(), [["/lens.html", false], ["/embed.html", true]]);
+  // a narrower page is not scrolled sideways by the frame that waits
+  await page.setViewportSize({ width: 400, height: 700 });
+  await page.evaluate(() => (document.querySelector("body > div").style.width = "300px"));
+  await page.waitForFunction(() => document.documentElement.scrollWidth <= 400);
 }, { wait: false, timeout: 240000 });

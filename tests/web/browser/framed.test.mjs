@@ -229,6 +229,15 @@ lab("a page around begins a lesson by an address or a message, and hears when it
   await page.waitForFunction(() => window.late.some((m) => m.kind === "lesson" && m.done) && window.late.some((m) => m.kind === "state"), null, { timeout: 20000 });
   await post({ do: "lesson", id: null });
   await last(null, undefined);
+  // what is asked behind an address with a lesson holds when the lesson begins, a frame later
+  await page.evaluate(() => {
+    for (const message of [{ do: "open", query: "lesson=near&q=0.5,1.25" }, { do: "configuration", coordinates: [0.25, 1.5] }]) frames[0].postMessage({ motionLab: message }, "*");
+  });
+  await last("near", false);
+  await page.waitForTimeout(700);
+  assert.deepEqual(await frame.evaluate(() => window.received.state.query.coordinates), [0.25, 1.5]);
+  await post({ do: "lesson", id: null });
+  await last(null, undefined);
   const refused = page.waitForFunction(() => window.refused?.text, null, { timeout: 20000 });
   await page.evaluate(() => addEventListener("message", ({ data }) => data.motionLab?.kind === "error" && (window.refused = data.motionLab)));
   await post({ do: "lesson", id: "Near" });

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{CellMap, Overlay, Region, Slice, cspace_picture, region_items, regions};
-use motion_lab_core::geometry::Point2;
+use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::num::wrap;
 use motion_lab_core::picture::{Anchor, Drawing, Fit, Item, Picture};
 use motion_lab_core::robots::AnyRobot;
@@ -70,6 +70,14 @@ impl SpaceCells {
         items
     }
 
+    /// Whether a point of the slice's plane is on its chart, or at most this far beyond its edges: a point on the edge
+    /// can be taken from there.
+    pub fn is_on_chart(&self, point: Point2, reach: f64) -> bool {
+        let slice = self.map.slice();
+        let chart = Aabb::new(Point2::from(slice.min()), Point2::from(slice.max())).grown(reach);
+        !chart.is_apart(&Aabb::new(point, point))
+    }
+
     /// The configuration of a point of the slice's plane, and whether the way there led over an edge of a torus: beyond
     /// it the square goes on at the opposite one. Any other slice ends at its edges.
     pub fn configuration_at(&self, point: Point2) -> (AnyConfiguration, bool) {
@@ -101,7 +109,6 @@ mod tests {
     use super::*;
     use motion_lab_core::collision::Scene;
     use motion_lab_core::configuration::Tn;
-    use motion_lab_core::geometry::Aabb;
     use motion_lab_core::picture::ScreenRect;
     use motion_lab_core::robots::Reach;
 

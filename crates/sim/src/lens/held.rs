@@ -1,18 +1,22 @@
 //! `Lens`, a lens that stands still, in a reader's hand.
 
+use std::f64::consts::PI;
 use std::mem::take;
 
 use super::cells::SpaceCells;
 use super::done::{done_between, have_one_tip};
 use crate::anatomy::{Anatomy, twin_items};
 use crate::manifest::{HintTask, Widget};
-use motion_lab_core::configuration::AnyConfiguration;
+use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::cspace::overlay_items;
 use motion_lab_core::geometry::{Aabb, Point2};
 use motion_lab_core::picture::{Fit, Picture};
 
 /// Level of the finest cells: a 128th of the sides.
 const FINEST: u32 = 7;
+
+/// Radius of the robot's point with its ring, pixels.
+const POINT: f64 = 6.0;
 
 /// Largest number of configurations in a trace.
 const TRACE: usize = 2000;
@@ -95,11 +99,50 @@ impl Lens {
         more
     }
 
+    /// Sets what is so, by no hand: nothing is done by it, and a hand that holds something lets go of it.
+    pub fn set(&mut self, set: impl FnOnce(&mut Anatomy)) {
+        self.taken = None;
+        set(&mut self.anatomy);
+        if self.widget == Widget::Cspace {
+            remember_in(&mut self.trace, self.anatomy.q());
+        }
+    }
+
     /// Changes the scene by hand. What comes of it is [done](Self::take_done) once the hand [lets go](Self::let_go).
     pub fn change(&mut self, change: impl FnOnce(&mut Anatomy)) {
         _ = self.taken.get_or_insert_with(|| self.anatomy.clone());
         change(&mut self.anatomy);
         self.see();
+    }
+
+    /// Moves a coordinate by hand, by so much.
+    pub fn nudge(&mut self, index: usize, by: f64) {
+        let to = self.anatomy.q().coordinates().get(index).map(|now| now + by);
+        let Some(to) = to else { return };
+        self.change(|anatomy| anatomy.set_coordinate(index, to));
+        if self.widget == Widget::Cspace {
+            let is_over_edge = (self.anatomy.q().coordinates()[index] - to).abs() > PI;
+            self.moved(is_over_edge);
+        }
+    }
+
+    /// The configuration space's point was moved.
+    fn moved(&mut self, is_over_edge: bool) {
+        self.done.push(HintTask::MovePoint);
+        self.done.extend(is_over_edge.then_some(HintTask::OverEdge));
+    }
+
+    /// Whether a press at a point of a paper of this size, pixels, takes hold: among the figures at the axes of the
+    /// configuration space it means no point.
+    pub fn takes(&self, paper: LensPaper, size: [f64; 2], at: [f64; 2]) -> bool {
+        match (paper, &self.cells, self.bounds(paper)) {
+            (LensPaper::World, ..) => true,
+            (LensPaper::Space, Some(cells), Some(bounds)) => {
+                let fit = Fit::in_page(&bounds, size);
+                cells.is_on_chart(fit.world_from_screen(at), POINT / fit.px_per_metre())
+            }
+            (LensPaper::Space, ..) => false,
+        }
     }
 
     /// Drags what is held on a paper to a point of it, metres or the units of its axes: the robot by the point that
@@ -112,8 +155,7 @@ impl Lens {
                 let (q, is_over_edge) = cells.configuration_at(to);
                 // a point of the slice is a configuration of the robot
                 self.change(|anatomy| _ = anatomy.set_q(q));
-                self.done.push(HintTask::MovePoint);
-                self.done.extend(is_over_edge.then_some(HintTask::OverEdge));
+                self.moved(is_over_edge);
             }
         }
     }

@@ -82,6 +82,36 @@ fn the_point_goes_over_an_edge_of_the_torus_and_two_points_with_one_tip_are_seen
 }
 
 #[test]
+fn keys_go_over_the_edge_too_and_what_a_page_sets_is_no_task() {
+    let mut lens = space();
+    lens.set(|anatomy| anatomy.set_coordinate(0, 3.12));
+    lens.nudge(1, 0.05);
+    assert_eq!(lens.take_done(), [HintTask::MovePoint]);
+    lens.nudge(0, 0.05);
+    assert_eq!(lens.take_done(), [HintTask::MovePoint, HintTask::OverEdge]);
+    assert!((lens.anatomy().q().coordinates()[0] - (3.17 - 2.0 * PI)).abs() < 1e-12);
+    lens.nudge(7, 0.05);
+    assert_eq!(lens.take_done(), [], "it has two coordinates");
+    let mut near = Lens::new(Widget::Anatomy, Anatomy::default().with_tab(Tab::Witness)).unwrap();
+    near.change(|anatomy| anatomy.set_coordinate(1, 1.5));
+    near.set(|anatomy| anatomy.set_coordinate(1, 1.42));
+    near.let_go();
+    assert_eq!(near.take_done(), []);
+}
+
+#[test]
+fn who_presses_at_the_axes_takes_no_point() {
+    let lens = space();
+    // the chart's left edge is an eighth of the picture in: names and figures stand before it
+    let handle = lens.handle(LensPaper::Space, SIZE).unwrap();
+    assert!(lens.takes(LensPaper::Space, SIZE, handle) && lens.takes(LensPaper::Space, SIZE, [200.0, 200.0]));
+    assert!(!lens.takes(LensPaper::Space, SIZE, [10.0, 200.0]) && !lens.takes(LensPaper::Space, SIZE, [200.0, 396.0]));
+    assert!(lens.takes(LensPaper::World, SIZE, [10.0, 200.0]));
+    let anatomy = Lens::new(Widget::Anatomy, Anatomy::default()).unwrap();
+    assert!(!anatomy.takes(LensPaper::Space, SIZE, [200.0, 200.0]));
+}
+
+#[test]
 fn cells_are_judged_anew_for_other_links_and_the_trace_of_the_old_ones_goes() {
     let mut lens = space();
     lens.drag(LensPaper::Space, Point2::new(0.4, 0.9));

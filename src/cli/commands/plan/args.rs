@@ -139,8 +139,8 @@ pub struct PlanArgs {
     #[arg(long, value_name = "FILE", requires = "compare")]
     pub(super) csv: Option<PathBuf>,
     /// Write the lengths of a comparison's paths as they fell to this file: after how many iterations each attempt had
-    /// its first path, and each shorter one, looked at every 500 iterations, as CSV; or the medians of each planner as
-    /// a picture, if its name ends in .svg or .png.
+    /// its first path, and each shorter one, as read every 500 iterations, as CSV; or the medians of each planner as a
+    /// picture, if its name ends in .svg or .png.
     #[arg(long, value_name = "FILE", requires = "compare")]
     pub(super) costs: Option<PathBuf>,
     /// Write a comparison to this file in the grammar of OMPL's benchmark logs, which ompl_benchmark_statistics.py and

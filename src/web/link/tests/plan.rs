@@ -90,8 +90,8 @@ fn a_plan_with_a_wrong_part_is_refused_by_its_field() {
         ("plan=lot,Hitch&to=inf,0,0", "to: it must be up to 16 numbers, joined by commas, not \"inf,0,0\"".to_owned()),
         ("plan=lot,Hitch&lies=no", "lies: it must be one of yes, not \"no\"".to_owned()),
         (
-            "plan=lot,Hitch&planner_seed=-1",
-            "planner_seed: it must be a whole number up to 18446744073709551615, not \"-1\"".to_owned(),
+            "plan=lot,Hitch&planner_seed=4294967296",
+            "planner_seed: it must be a whole number up to 4294967295, not \"4294967296\"".to_owned(),
         ),
     ] {
         assert_eq!(refusal(query), said);

@@ -12,7 +12,7 @@ use crate::window::ui::paint::frame::{formulas, headline, next_hint, rows_of_wor
 use crate::window::ui::paint::sheet::{sheet, two_columns};
 use crate::window::ui::{Command, Dashboard, FrameColours, UiState};
 use motion_lab_core::cspace::overlay_items;
-use motion_lab_core::geometry::{Aabb, Point2};
+use motion_lab_core::geometry::Point2;
 use motion_lab_core::picture::{Picture, Role, readout, readout_lines};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::anatomy::{PromptSeries, Tab, twin_items};
@@ -177,13 +177,10 @@ fn space(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
     let on = sheet(ui, paper, spoken, &still, &moving, look);
     // on a torus the way beyond an edge goes on at the opposite one, however far
     let held = if slice.wraps() { on.held_anywhere() } else { on.held() };
-    let (min, max) = (slice.min(), slice.max());
-    // who presses among the figures at the axes means no point; a point on the edge can be taken from beyond it
-    let reach = POINT / on.fit.px_per_metre();
-    let chart = Aabb::new(Point2::from(min), Point2::from(max)).grown(reach);
+    // who presses among the figures at the axes means no point
     let from = ui.input(|i| i.pointer.press_origin());
     let from = from.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
-    let is_on_chart = from.is_some_and(|p| !chart.is_apart(&Aabb::new(p, p)));
+    let is_on_chart = from.is_some_and(|p| cells.is_on_chart(p, POINT / on.fit.px_per_metre()));
     let is_meant = is_on_chart && (on.response.dragged() || on.response.clicked());
     if let Some((q, is_over_edge)) = held.filter(|_| is_meant).map(|to| cells.configuration_at(to)) {
         // a point of the slice is a configuration of the robot

@@ -156,7 +156,7 @@ impl Gathered {
         Ok(Gathered { study, rows, failed, results, axes, values, ended, is_planned, worst, failures })
     }
 
-    /// The same, told apart by the axis of this name alone; `None` without it.
+    /// The same, with figures for the values of the axis of this name alone; `None` without it.
     pub fn only(mut self, name: &str) -> Option<Self> {
         let at = self.axes.iter().position(|axis| axis.name == name)?;
         (self.axes, self.values) = (vec![self.axes.swap_remove(at)], vec![self.values.swap_remove(at)]);

@@ -40,7 +40,8 @@ pub struct Report {
     /// The form. [default: by the output's name; html for `-`]
     #[arg(long)]
     format: Option<PageForm>,
-    /// The parameter that is told apart, as the study calls it. [default: in a page each of two to twelve values]
+    /// The parameter whose values have figures of their own, as the study calls it. [default: in a page each of two to
+    /// twelve values]
     #[arg(long, value_name = "PARAMETER")]
     by: Option<String>,
     #[command(flatten)]
@@ -77,7 +78,7 @@ impl Report {
         Ok(Outcome::Done)
     }
 
-    /// The same runs, told apart by this parameter alone.
+    /// The same runs, with figures for the values of this parameter alone.
     fn by_parameter(&self, gathered: Gathered, name: &str) -> Result<Gathered, Failure> {
         let known: Vec<String> = gathered.axes.iter().map(|axis| axis.name.clone()).collect();
         gathered.only(name).ok_or_else(|| {
