@@ -156,7 +156,7 @@ function sayAnswer() {
 }
 
 /** A hand on a paper: a mouse takes the robot to where it presses, a finger takes hold of it, arrow keys move it. */
-function hold({ space, box, ...paper }) {
+function hold({ space, box }) {
   const sizeOf = () => papers.find((own) => own.box === box).size;
   const at = ({ clientX, clientY }) => {
     const { left, top } = box.getBoundingClientRect();
@@ -308,6 +308,12 @@ function open(query) {
   if (lens.lesson()) tell({ kind: "lesson", id: lens.lesson(), done: false });
   if (!isAnatomy) refine();
   change();
+  takeKeys();
+}
+
+/** Who comes in from the page around, by Enter, has the first paper in hand. */
+function takeKeys() {
+  if (isShared && document.hasFocus() && document.activeElement === document.body) papers[0]?.box.focus({ preventScroll: true });
 }
 
 /** Whether the page around has figures that share this frame, and the lab's. */
@@ -322,6 +328,7 @@ $("whole").addEventListener("click", () => {
 try {
   await wasm_bindgen({ module_or_path: JSON.parse($("files").textContent).lightWasm });
   if (!isShared) open((location.search || location.hash).replace(/^[?#]/, ""));
+  addEventListener("focus", takeKeys);
   new ResizeObserver(() => lens && change()).observe($("papers"));
   window.motionLab = { send: ask };
   tell({ kind: "ready" });

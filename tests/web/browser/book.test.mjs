@@ -92,12 +92,19 @@ lab("a figure's numbers, words and links are one with it", "/", async ({ page })
   assert.equal(await number.textContent(), "0.0607 m");
   assert.equal(await number.getAttribute("data-moved"), null);
 
-  // by hand: at (45, 90 + x) degrees the second link turns about the elbow; at 1.75 rad its line passes the corner at
-  // |(corner - elbow) x direction| = |-0.2071 * sin(2.5354) - 0.2929 * cos(2.5354)| = 0.1228
-  const [dx, dy, heading] = [0.5 - Math.SQRT1_2, 1 - Math.SQRT1_2, Math.PI / 4 + 1.75];
-  const byHand = Math.abs(dx * Math.sin(heading) - dy * Math.cos(heading)).toFixed(4);
-  await page.click("text=bend the elbow");
-  await page.waitForFunction((text) => [...document.querySelectorAll('.live[data-live="query.distance"]')].at(-1).textContent === text, `${byHand} m`);
+  // by hand: the second link turns about the elbow, and its line passes the block's corner at |(corner - elbow) x direction|
+  const reads = (text) => page.waitForFunction((text) => [...document.querySelectorAll('.live[data-live="query.distance"]')].at(-1).textContent === text, text);
+  const byHand = (elbow) => {
+    const [dx, dy, heading] = [0.5 - Math.SQRT1_2, 1 - Math.SQRT1_2, Math.PI / 4 + elbow];
+    return `${Math.abs(dx * Math.sin(heading) - dy * Math.cos(heading)).toFixed(4)} m`;
+  };
+  await page.click("text=stretch the elbow");
+  await reads(byHand(1.48));
+  // it touches below 1.4009 rad
+  await page.click("text=until it touches");
+  await reads("0.0000 m");
+  await page.click("text=stretch the elbow");
+  await reads(byHand(1.48));
   assert.equal(await number.getAttribute("data-moved"), "");
   assert.match(await number.getAttribute("title"), /0\.0607 m/);
 
@@ -163,7 +170,8 @@ lab("the lab rests while a figure that stands still is read, and takes that figu
   assert.deepEqual(await inertness(), [[false, false], [true, true]]);
   // it stays the lab's, and its numbers follow the lab
   await whole.evaluate(() => window.motionLab.send({ do: "configuration", coordinates: [0.7853981633974483, 2] }));
-  await page.waitForFunction(() => [...document.querySelectorAll('.live[data-live="query.distance"]')].at(-1).textContent === "0.0000 m");
+  // the corner is 0.2963 m along the second link and 0.2023 m off it; where the arm stood before, it touched
+  await page.waitForFunction(() => [...document.querySelectorAll('.live[data-live="query.distance"]')].at(-1).textContent === "0.2023 m");
 }, { wait: false, timeout: 240000 });
 
 lab("a lab that is left before it is there rests; a lens that can't be loaded is the lab's", "/", async (open) => {
@@ -203,7 +211,7 @@ lab("a figure is one stop of Tab: Enter goes in, Escape out", "/", async ({ page
   await page.waitForSelector("iframe:not([data-waits])", { timeout: 90000 });
   await page.waitForFunction(() => document.activeElement.matches("iframe"));
   // the keys come to the frame a moment after the page says so
-  await seen(page.frames()[1], () => document.hasFocus());
+  await seen(page.frames()[1], () => document.hasFocus() && document.activeElement.classList.contains("lens-paper"));
   await page.keyboard.press("Escape");
   await page.waitForFunction(() => document.activeElement.matches("#witness motion-figure a"));
   await page.keyboard.press("Tab");
@@ -269,7 +277,7 @@ test("without script the book is whole: pictures, formulas, numbers, and links t
     assert.ok((await frame.locator("img").boundingBox()).height > 150, "its still has a height");
   }
   assert.ok((await page.locator("math").count()) > 40);
-  assert.equal(await page.locator('a[data-moves="witness"]').first().getAttribute("href"), "index.html?widget=anatomy&tab=witness&q=0.7853981633974483,1.75");
+  assert.equal(await page.locator('a[data-moves="witness"]').first().getAttribute("href"), "index.html?widget=anatomy&tab=witness&q=0.7853981633974483,1.48");
   for (const link of await page.locator("#dots a").all()) {
     const section = await link.getAttribute("href");
     assert.equal(await page.locator(section).count(), 1, section);
