@@ -7,12 +7,13 @@ const ASKED = "light open play pause step step_back reset reroll seek why way_ou
 const HEARD = "ready state lesson figure link saved leave whole height done error failed".split(" ");
 
 /**
- * Speaks with the page around, if there is one. `ask` carries out a message, `askReader` asks whether the run may be saved, `refuse` tells
- * a refusal. Returns the function that tells that page something.
+ * Speaks with the page around, if there is one. `ask` carries out a message, `save` saves the run under a name if the reader agrees or the
+ * page around is one of the lab's own, `refuse` tells a refusal, `isHeld` says whether Escape lets go of something here. Returns the function
+ * that tells that page something.
  *
  * It speaks with one origin: the browser's word for the page around or, where the browser has none, that of the first message.
  */
-export function around({ ask, askReader, refuse }) {
+export function around({ ask, save, refuse, isHeld = () => false }) {
   const isFramed = parent !== window;
   let origin = isFramed ? originAround() : location.origin;
   const missed = []; // what was said before the origin was known
@@ -28,13 +29,14 @@ export function around({ ask, askReader, refuse }) {
     if (event.origin !== origin) return;
     missed.splice(0).forEach(tell);
     if (!ASKED.includes(message.do)) return refuse(`${message.do.slice(0, 20)}: not for the page around`, message.request);
-    // a file is saved for the reader, not for the page around: the reader is asked
-    if (message.do === "save") askReader(message.request);
+    // a file is saved for the reader, not for a stranger's page around: the reader is asked
+    const isOwn = event.origin === self.origin && (event.origin !== "null" || location.protocol === "file:");
+    if (message.do === "save") save({ request: message.request, name: message.name, isOwn });
     else ask({ ...message, around: true });
   });
-  // Escape leaves the frame, unless it closes something in it
+  // Escape leaves the frame, unless it closes or lets go of something in it
   window.addEventListener("keydown", ({ key }) => {
-    if (key === "Escape" && !document.querySelector("[aria-expanded=true], [role=dialog], [role=menu]")) tell({ kind: "leave" });
+    if (key === "Escape" && !isHeld() && !document.querySelector("[aria-expanded=true], [role=dialog], [role=menu]")) tell({ kind: "leave" });
   });
   return tell;
 }

@@ -134,10 +134,11 @@ export function fingers({ canvas, container, at, widgets, twin, embedded, announ
 
   /** Brings a widget and the room below it into sight: scrolls the lab's words, and then the page. */
   function reveal(widget, room) {
-    const { foot, words } = layout(canvas, widgets());
+    const { foot, words, top } = layout(canvas, widgets());
     const box = canvas.getBoundingClientRect();
-    const more = bottomOf(widget) + room - foot;
-    if (more > 0 && words.includes(widget)) {
+    const below = bottomOf(widget) + room - foot;
+    const more = below > 0 ? below : Math.min(0, widget.place[1] - top);
+    if (more !== 0 && words.includes(widget)) {
       const where = { clientX: box.left + widget.place[0] + 4, clientY: box.top + foot - 30, bubbles: true, cancelable: true };
       // as a mouse wheel: the canvas takes no other word for it
       const mouse = (type) => canvas.dispatchEvent(new PointerEvent(type, { ...where, pointerType: "mouse", pointerId: 1 }));
@@ -145,18 +146,42 @@ export function fingers({ canvas, container, at, widgets, twin, embedded, announ
       canvas.dispatchEvent(new WheelEvent("wheel", { ...where, deltaY: more }));
       setTimeout(() => mouse("pointerout"), 600);
     }
-    const seen = visualViewport.offsetTop + visualViewport.height;
-    const over = box.top + Math.min(bottomOf(widget) + room, foot) - seen;
+    scrollTo(widget, room);
+  }
+
+  /** Scrolls the page to a widget and the room below it, as far as the lab's words show it. */
+  function scrollTo(widget, room) {
+    const { foot, words, top } = layout(canvas, widgets());
+    const [begin, end] = [widget.place[1], bottomOf(widget) + room];
+    const [first, last] = words.includes(widget) ? [Math.max(begin, top), Math.min(end, foot)] : [begin, end];
+    const box = canvas.getBoundingClientRect();
+    const { offsetTop, height } = visualViewport;
+    const over = box.top + last - (offsetTop + height);
+    const above = box.top + first - offsetTop;
     if (over > 0) scrollBy(0, over);
+    else if (above < 0) scrollBy(0, above);
+  }
+
+  let sought = ""; // the control that the page was scrolled to last, and its place
+  /** Keeps the control that has the keys in sight: the lab scrolls its words to it, which takes a while. */
+  function follow() {
+    if (!container.contains(document.activeElement)) return;
+    const own = widgets().map(twin).find((own) => own?.control === document.activeElement);
+    if (!own?.widget.place || isLarge(own.widget) || TYPED.includes(own.widget.kind)) return;
+    const at = `${own.widget.id} ${own.widget.place}`;
+    if (at === sought) return;
+    sought = at;
+    scrollTo(own.widget, 6);
   }
 
   container.addEventListener("focusin", ({ target }) => {
     const own = widgets().map(twin).find((own) => own?.control === target);
-    if (own?.widget.place && TYPED.includes(own.widget.kind)) reveal(own.widget, BELOW);
+    if (own?.widget.place && !isLarge(own.widget)) reveal(own.widget, TYPED.includes(own.widget.kind) ? BELOW : 6);
   });
 
   /** Says what the lab says of a guess, and brings it into sight: it stands below the button that asks for it, in line with the field. */
   return function look() {
+    follow();
     const all = widgets();
     const check = all.findIndex(({ kind, name }) => kind === "button" && name === "Check");
     const said = all.slice(check + 1).find(({ name }) => !["Show", "Next question"].includes(name));

@@ -69,11 +69,13 @@ function attempt(act, { around, request } = {}) {
   }
 }
 
-let toSave; // the mark of the page's request to save the run
+let toSave = {}; // the page's request to save the run
 const tellAround = around({
   ask: send,
-  askReader: (request) => {
-    toSave = request;
+  isHeld: () => Boolean(state?.armed || state?.covered),
+  save(wanted) {
+    toSave = wanted;
+    if (wanted.isOwn) return saveForPage(true);
     $("asked").hidden = false;
     alarm("The page around asks to save this run: Save run, or No");
   },
@@ -139,10 +141,20 @@ async function open(file) {
   say(`${file.name} is opened as soon as the lab is there`);
 }
 
+/** Saves the run for the page around, or not, and tells it. */
+function saveForPage(saved) {
+  $("asked").hidden = true;
+  runName = /^[\w-]{1,40}$/.test(toSave.name) ? toSave.name : "run";
+  if (saved) send({ do: "save" });
+  tellAll({ kind: "saved", saved, request: toSave.request });
+}
+
+let runName = "run"; // what the next saved run is called
+
 function save(name, bytes, type = "application/octet-stream") {
   const link = document.createElement("a");
   link.href = URL.createObjectURL(new Blob([bytes], { type }));
-  link.download = name;
+  link.download = name === "run.mcap" ? `${runName}.mcap` : name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
@@ -181,6 +193,12 @@ async function runPage() {
 
 const shown = beside({ element: $("beside"), key: $("key"), widgets: files.widgets, send });
 const drawn = captures({ say, warn, save, tell: tellAll });
+
+/** What came of a plan, for who does not see it; nothing while it grows. */
+function outcome({ stage, why, clearance }) {
+  if (stage === "solved") return `A path is found, and proven${clearance === null ? "" : `: ${clearance.toFixed(4)} m clear`}`;
+  return why ? `No path: ${why}` : "";
+}
 
 const hear = {
   ready() {
@@ -222,8 +240,10 @@ const hear = {
     if (before && message.armed !== before.armed) announce(message.armed ? `${message.armed} is in your hand: arrow keys drive, Escape lets go` : "No robot is in your hand");
     for (const robot of message.robots) {
       const earlier = before?.robots.find((r) => r.name === robot.name);
-      if (earlier && robot.contacts > earlier.contacts) announce(`${robot.name}: contact ${robot.contacts}`);
+      // of a robot on tour nobody asked
+      if (earlier && robot.contacts > earlier.contacts && (robot.driven || message.armed === robot.name)) announce(`${robot.name}: contact ${robot.contacts}`);
     }
+    if (message.plan && before?.plan && message.plan.stage !== before.plan.stage) announce(outcome(message.plan));
     if (nudged && String(message.query?.coordinates) !== String(before?.query?.coordinates)) tellAnswer();
     if (String(message.query?.coordinates) === String(nudged?.coordinates)) nudged = null;
     if (message.widget !== before?.widget) shown.key(message.widget);
@@ -371,7 +391,10 @@ $("copy-link").addEventListener("click", () => {
   copies = true;
   send({ do: "link" });
 });
-$("save-run").addEventListener("click", () => send({ do: "save" }));
+$("save-run").addEventListener("click", () => {
+  runName = "run";
+  send({ do: "save" });
+});
 $("open-file").addEventListener("click", () => hear.ask({ accept: ".mcap,.ron,.json,.html" }));
 $("save-page").addEventListener("click", async () => {
   try {
@@ -400,11 +423,7 @@ $("overlay-save").addEventListener("click", async () => {
 $("overlay-restart").addEventListener("click", restart);
 $("retry").addEventListener("click", () => location.reload());
 for (const [id, saved] of [["asked-save", true], ["asked-no", false]]) {
-  $(id).addEventListener("click", () => {
-    $("asked").hidden = true;
-    if (saved) send({ do: "save" });
-    tellAll({ kind: "saved", saved, request: toSave });
-  });
+  $(id).addEventListener("click", () => saveForPage(saved));
 }
 
 // keys that the lab uses do not scroll the page; Tab and the browser's own stay
@@ -417,6 +436,8 @@ document.addEventListener("paste", (event) => {
   if (document.activeElement === canvas) send({ do: "paste", text: event.clipboardData.getData("text/plain") });
 });
 canvas.addEventListener("pointerdown", () => canvas.focus({ preventScroll: true }));
+// who comes into a frame by Enter has the lab in hand
+if (embedded) addEventListener("focus", () => setTimeout(() => document.activeElement === document.body && canvas.focus({ preventScroll: true })));
 canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 canvas.addEventListener("webglcontextlost", lost);
 // a long link is behind the #: put into the address of this very page, it loads nothing by itself

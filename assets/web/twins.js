@@ -139,7 +139,9 @@ export function twins({ container, send, titles, said, leave, nudge, alarm }) {
     if (widget.place && String(widget.place) !== own.place) {
       own.place = String(widget.place);
       const [left, top, width, height] = widget.place;
-      Object.assign(element.style, { left: `${left}px`, top: `${top}px`, width: `${width}px`, height: `${height}px` });
+      // what the lab has scrolled away is not beyond its edge: the browser would scroll the page there
+      const within = Math.max(0, Math.min(top, container.clientHeight - height));
+      Object.assign(element.style, { left: `${left}px`, top: `${within}px`, width: `${width}px`, height: `${height}px` });
     }
     const name = widget.name ?? "";
     if (widget.kind === "text") return words(element, name);

@@ -3,9 +3,8 @@
 use serde_json::json;
 use wasm_bindgen::prelude::*;
 
-use super::link::{Link, ReadLink};
+use super::link::{Link, LinkedAnatomy, ReadLink};
 use super::query_value::query_value;
-use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::Theme;
 use motion_lab_sim::anatomy::{Anatomy, Tab};
 use motion_lab_sim::capture::{self, Paper};
@@ -37,12 +36,9 @@ impl PageLens {
         let ReadLink { link, view, .. } = Link::read(query);
         view?;
         let widget = link.lesson.map(|lesson| lesson.widget).or(link.widget);
-        let widget = widget.or(link.tab.map(|_| Widget::Anatomy)).unwrap_or(Widget::Dashboard);
+        let widget = widget.or(link.anatomy.tab.map(|_| Widget::Anatomy)).unwrap_or(Widget::Dashboard);
         let mut scene = link.lesson.map_or_else(Anatomy::default, |lesson| lesson.scene(None));
-        scene.tab = link.tab.unwrap_or(scene.tab);
-        if !link.q.is_empty() {
-            put(&mut scene, &link.q)?;
-        }
+        link.anatomy.show_in(&mut scene).map_err(|why| JsError::new(&why))?;
         let refusal = || JsError::new(&format!("{} does not stand still", widget.id()));
         Ok(PageLens { lens: Lens::new(widget, scene).ok_or_else(refusal)?, lesson: link.lesson })
     }
@@ -87,6 +83,11 @@ impl PageLens {
         Ok(serde_json::to_string(&self.lens.words())?)
     }
 
+    /// The names of the roles of its colour key, which can be lit.
+    pub fn roles(&self) -> Vec<String> {
+        self.lens.widget().text().key.iter().map(|entry| entry.role().name().to_owned()).collect()
+    }
+
     /// What a page hears of it: the widget and the query, as JSON.
     pub fn state(&self) -> String {
         json!({ "widget": self.lens.widget().id(), "query": query_value(self.lens.anatomy()) }).to_string()
@@ -98,11 +99,11 @@ impl PageLens {
     /// None that can come.
     pub fn link(&self) -> Result<String, JsError> {
         let (widget, anatomy) = (self.lens.widget(), self.lens.anatomy());
-        let tab = (widget == Widget::Anatomy).then_some(anatomy.tab);
-        let q = anatomy.q().coordinates().to_vec();
+        let mut shown = LinkedAnatomy::of(anatomy);
+        shown.tab = shown.tab.filter(|_| widget == Widget::Anatomy);
         // a lesson has a question of its own
-        let lesson = self.lesson.filter(|lesson| tab.is_none() || tab == Some(lesson.scene(None).tab));
-        Ok(Link { widget: Some(widget), lesson, tab, q, ..Link::default() }.query()?)
+        let lesson = self.lesson.filter(|lesson| shown.tab.is_none() || shown.tab == Some(lesson.scene(None).tab));
+        Ok(Link { widget: Some(widget), lesson, anatomy: shown, ..Link::default() }.query()?)
     }
 
     /// The figure of it, as an SVG file.
@@ -159,7 +160,9 @@ impl PageLens {
     /// The reason, where it has no such place.
     pub fn put(&mut self, coordinates: &[f64]) -> Result<(), JsError> {
         let mut scene = self.lens.anatomy().clone();
-        put(&mut scene, coordinates)?;
+        let thick = scene.thick_links() == Some(true);
+        let there = LinkedAnatomy { q: coordinates.to_vec(), thick, ..LinkedAnatomy::default() };
+        there.show_in(&mut scene).map_err(|why| JsError::new(&why))?;
         self.lens.set(|anatomy| *anatomy = scene);
         Ok(())
     }
@@ -184,12 +187,4 @@ impl PageLens {
     pub fn show_annulus(&mut self, is_shown: bool) {
         self.lens.set(|anatomy| anatomy.show_annulus = is_shown);
     }
-}
-
-/// Puts a scene's robot at coordinates.
-fn put(scene: &mut Anatomy, coordinates: &[f64]) -> Result<(), JsError> {
-    let count = scene.q().coordinates().len();
-    let refusal = || JsError::new(&format!("the robot has {count} coordinates"));
-    let q = scene.q().with_coordinates(coordinates).ok_or_else(refusal)?;
-    Ok(scene.set_q(q)?)
 }

@@ -1,5 +1,6 @@
 //! `Link`, a run and what to show of it in the query of an address.
 
+mod anatomy;
 mod cited;
 mod error;
 mod limits;
@@ -15,6 +16,7 @@ use std::fmt::Write;
 use percent_encoding::utf8_percent_encode;
 
 use super::inputs;
+pub use anatomy::LinkedAnatomy;
 #[cfg(feature = "web")]
 pub use cited::{cited, requoted};
 pub use error::LinkError;
@@ -23,7 +25,6 @@ pub use limits::{LINK_VERSION, LINK_VERSION_WITH_FILES, LINK_VERSION_WITH_INPUTS
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
 use motion_lab_core::worlds::World;
-use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::manifest::{Lesson, ThemeChoice, Widget};
 use motion_lab_sim::run::{Recipe, Script};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
@@ -48,11 +49,8 @@ pub struct Link {
     pub widget: Option<Widget>,
     /// The lesson that it begins, in its own widget.
     pub lesson: Option<Lesson>,
-    /// Query's question.
-    pub tab: Option<Tab>,
-    /// The chart coordinates of Query's robot, which is the configuration space's too: metres and radians. An empty
-    /// list leaves it where it is.
-    pub q: Vec<f64>,
+    /// What Query shows.
+    pub anatomy: LinkedAnatomy,
     /// What Plan shows.
     pub plan: Option<LinkedPlan>,
     /// The paper.
@@ -72,8 +70,7 @@ impl Default for Link {
             tick: 0,
             widget: None,
             lesson: None,
-            tab: None,
-            q: vec![],
+            anatomy: LinkedAnatomy::default(),
             plan: None,
             theme: None,
             script: Script::empty(),
@@ -163,12 +160,17 @@ impl Link {
         if let Some(lesson) = self.lesson {
             field("lesson", &lesson.id());
         }
-        if let Some(tab) = self.tab {
+        if let Some(tab) = self.anatomy.tab {
             field("tab", tab.name());
         }
         let numbers = |all: &[f64]| all.iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-        if !self.q.is_empty() {
-            field("q", &numbers(&self.q));
+        for (name, coordinates) in [("q", &self.anatomy.q), ("step", &self.anatomy.step)] {
+            if !coordinates.is_empty() {
+                field(name, &numbers(coordinates));
+            }
+        }
+        if self.anatomy.thick {
+            field("thick", "yes");
         }
         if let Some(plan) = &self.plan {
             field("plan", &format!("{},{}", plan.world, plan.robot));

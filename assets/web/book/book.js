@@ -1,5 +1,5 @@
 // The chapter's page: its figures are the lab, and its words, numbers and dots follow what the lab in them tells.
-import { live } from "./live.js";
+import { live, printed } from "./live.js";
 import { MotionFigure } from "./motion-figure.js";
 import { progress } from "./progress.js";
 import { tasks } from "./tasks.js";
@@ -26,12 +26,15 @@ function done(figure) {
 
 // ---- what the reader does ----
 
+let moved = null; // the figure that a sentence has moved, until its answer is said
+
 document.querySelector("main").addEventListener("click", (event) => {
   if (event.metaKey || event.ctrlKey || event.shiftKey) return; // a new tab is the reader's wish
   const link = event.target.closest("a[data-moves]");
   if (!link) return;
   event.preventDefault();
   const figure = labOf(document.getElementById(link.dataset.moves));
+  moved = figure.closest("figure.lab");
   figure.move(link.dataset.query);
   figure.scrollIntoView({ block: "nearest", behavior: matchMedia("(prefers-reduced-motion: reduce)").matches ? "auto" : "smooth" });
 });
@@ -39,10 +42,17 @@ document.querySelector("main").addEventListener("click", (event) => {
 // ---- what the lab says ----
 
 const hear = {
+  loads: (figure) => (told.textContent = `${labOf(figure).label}: loading the lab`),
   enter: (figure) => (told.textContent = `${labOf(figure).label}: Escape leaves the figure`),
   leave: () => (told.textContent = ""),
   state(figure, state) {
     shown.state(figure, state);
+    if (moved === figure) {
+      moved = null;
+      const { intersects, distance } = state.query ?? {};
+      // the reader is in the sentence: what the figure says of it is said here
+      if (state.query) told.textContent = intersects ? "It touches." : `It is ${printed(distance, { unit: "m away", decimals: 4, scale: 1 })}.`;
+    }
     const judged = judges.get(figure)?.(state);
     if (!judged) return;
     figure.querySelector(".far").textContent = judged.text;

@@ -59,10 +59,10 @@ export class Figures {
     return [
       `<figure class="lab" id="${figure.id}"${figure.lesson ? ` data-lesson="${figure.lesson}"` : ""}${figure.task ? this.#task(figure.task) : ""}>`,
       `<motion-figure query="${escape(query)}" label="${escape(figure.title)}"><a href="index.html?${escape(query)}">`,
-      `<img src="{{still.${figure.id}}}" loading="lazy" alt="${escape(figure.alt)}"><span class="try">Try it</span></a></motion-figure>`,
+      `<img src="{{still.${figure.id}}}" loading="lazy" alt="${escape(figure.alt)}"><span class="try">Try it<span class="unseen">: Figure ${number}, ${escape(figure.title)}</span></span></a></motion-figure>`,
       `<figcaption><strong>Figure ${number}.</strong> ${figure.question ? `<em>${inline(figure.question)}</em> ` : ""}${inline(figure.caption)}`,
       figure.task ? `<span class="far"></span>` : "",
-      figure.then ? `<span class="then" hidden>${inline(figure.then)}</span>` : "",
+      figure.then ? `<span class="then" hidden><strong>Done.</strong> ${inline(figure.then)}</span>` : "",
       `</figcaption></figure>\n`,
     ].join("");
   }

@@ -4,8 +4,6 @@ import { around } from "./around.js";
 
 const $ = (id) => document.getElementById(id);
 const root = document.documentElement;
-const TABS = ["intersects", "distance", "witness", "swept"];
-const ROLES = ["robot", "obstacle", "goal", "path", "sensor", "witness", "free"];
 /** Number of cells judged at a time. */
 const CELLS = 1500;
 /** The greatest width of a paper, pixels. */
@@ -185,6 +183,7 @@ function hold({ space, box }) {
   box.addEventListener("pointerup", letGo);
   box.addEventListener("pointercancel", letGo);
   box.addEventListener("keydown", (event) => {
+    if (["Home", "End", "PageUp", "PageDown"].includes(event.key)) event.preventDefault(); // they would scroll the page around
     const by = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowDown: [1, -1], ArrowUp: [1, 1] }[event.key];
     if (!by || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
@@ -199,7 +198,7 @@ function hold({ space, box }) {
   });
   // what is pointed at lights here and in the words around
   box.addEventListener("pointerover", ({ target, buttons }) => {
-    if (buttons === 0) light(ROLES.find((role) => target.closest?.("svg > g")?.classList.contains(role)) ?? null);
+    if (buttons === 0) light(lens.roles().find((role) => target.closest?.("svg > g")?.classList.contains(role)) ?? null);
   });
   box.addEventListener("pointerleave", () => light(null));
 }
@@ -242,7 +241,7 @@ const doing = {
   open: ({ query }) => open(String(query)),
   state: () => tellState(true),
   light({ role }) {
-    if (role !== null && !ROLES.includes(role)) throw new Error(`light: ${String(role).slice(0, 20)} is no role`);
+    if (role !== null && !lens.roles().includes(role)) throw new Error(`light: ${String(role).slice(0, 20)} is no role`);
     light(role);
   },
   configuration({ coordinates }) {
@@ -278,7 +277,7 @@ function ask(message) {
 }
 
 const refuse = (text, request) => tell({ kind: "error", text, request });
-const tellAround = around({ ask, askReader: (request) => refuse("save: this figure has no run", request), refuse });
+const tellAround = around({ ask, save: ({ request }) => refuse("save: this figure has no run", request), refuse });
 
 /** The address of what is shown. */
 const address = () => lens.link() + (root.dataset.theme ? `&theme=${root.dataset.theme}` : "");
@@ -296,9 +295,8 @@ function open(query) {
   $("lens").hidden = false;
   Object.assign($("whole"), { disabled: false, textContent: "The whole lab" });
   makePapers();
-  const isAnatomy = JSON.parse(lens.state()).widget === "anatomy";
   $("tabs").replaceChildren(
-    ...(isAnatomy ? TABS : []).map((id) => {
+    ...JSON.parse(lens.words()).tabs.map((id) => {
       const button = Object.assign(document.createElement("button"), { type: "button", textContent: id });
       button.addEventListener("click", () => (ask({ do: "tab", id }), sayAnswer()));
       return button;
@@ -306,7 +304,7 @@ function open(query) {
   );
   for (const id of ["sliders", "choices"]) $(id).replaceChildren();
   if (lens.lesson()) tell({ kind: "lesson", id: lens.lesson(), done: false });
-  if (!isAnatomy) refine();
+  refine();
   change();
   takeKeys();
 }

@@ -24,6 +24,7 @@ class Frame {
   failed = false; // whether it never will
   shows = null; // the figure whose address it was given last
   untaken = null; // the mark of an address that it has not taken: its states are still another figure's
+  #gates = [gate(false), gate(true)];
   #page;
 
   constructor(page) {
@@ -40,7 +41,7 @@ class Frame {
     this.element.src = new URL(this === lens ? `${this.#page}#shared` : `${this.#page}?${query}`, LAB);
     // pictures that come late move what is below them, and a body of the screen's height does not grow with them
     for (const part of document.body.children) sizes.observe(part);
-    document.body.append(this.element);
+    document.body.append(this.#gates[0], this.element, this.#gates[1]);
     this.say("Loading the lab");
   }
 
@@ -76,10 +77,34 @@ class Frame {
     this.element.inert = waits;
   }
 
+  /** Its gates are stops of Tab while the keys are in it. */
+  open() {
+    for (const element of this.#gates) element.tabIndex = this.hasFocus ? 0 : -1;
+  }
+
   get hasFocus() {
     return this.element !== null && document.activeElement === this.element;
   }
 }
+
+/** What a reader can come to by Tab. */
+const STOPS = "a[href], button, input, select, textarea, summary, [tabindex='0']:not(.motion-figure-gate)";
+
+/** The first stop in the page behind a figure; the figure's link where there is none. */
+function stopAfter(figure) {
+  const isBehind = (stop) => figure.compareDocumentPosition(stop) & Node.DOCUMENT_POSITION_FOLLOWING && !figure.contains(stop);
+  return [...document.querySelectorAll(STOPS)].find((stop) => isBehind(stop) && !stop.disabled && stop.checkVisibility()) ?? figure.link;
+}
+
+/** A stop before or behind a frame, which lies at the page's end: who leaves it by Tab goes on from where its figure is. */
+function gate(isBehind) {
+  const element = Object.assign(document.createElement("span"), { className: "motion-figure-gate", tabIndex: -1 });
+  element.addEventListener("focus", () => (isBehind ? stopAfter(front) : front.link).focus());
+  return element;
+}
+// a window loses the keys to a frame in it
+for (const type of ["blur", "focus"]) addEventListener(type, () => setTimeout(() => [lab, lens].forEach((frame) => frame.open())));
+
 const lab = new Frame("embed.html");
 const lens = new Frame("lens.html");
 
@@ -174,7 +199,7 @@ const hear = {
       return follow();
     }
     frame.wait(false);
-    if (front.contains(document.activeElement)) focus(front);
+    if (front.contains(document.activeElement)) front.takeIn();
     if (frame === lens || frame.shows !== front || kept.has(front)) frame.show(front);
   },
   figure(_, { request, svg }) {
@@ -246,7 +271,7 @@ addEventListener("message", ({ source, origin, data }) => {
 
 /**
  * A figure of the lab. It gets events `motionlab`, which bubble, with what the lab tells in `detail`, and one of kind
- * `enter` when its reader goes in.
+ * `enter` once its reader is in, before which comes one of kind `loads` where the lab is not there yet.
  */
 export class MotionFigure extends HTMLElement {
   get query() {
@@ -275,7 +300,7 @@ export class MotionFigure extends HTMLElement {
 
   /** The label of the link. */
   say(text) {
-    this.link.querySelector(".try").textContent = text;
+    this.link.querySelector(".try").firstChild.data = text; // behind it may stand which figure it is
   }
 
   connectedCallback() {
@@ -300,7 +325,13 @@ export class MotionFigure extends HTMLElement {
   /** The lab serves this figure, and has the keys. */
   enter() {
     serve(this);
-    if (this.frame.ready) focus(this);
+    if (this.frame.ready) this.takeIn();
+    else tell(this, { kind: "loads" });
+  }
+
+  /** Its reader is in it. */
+  takeIn() {
+    focus(this);
     tell(this, { kind: "enter" });
   }
 

@@ -24,6 +24,14 @@ export function progress({ headings, figures }) {
   const done = kept();
   const answers = [...document.querySelectorAll(".answer")];
   answers.forEach((answer, i) => (answer.dataset.task = `answer-${i + 1}`));
+  const titles = [...document.querySelectorAll("h2, h3")];
+  const titleOf = (answer) => titles.filter((title) => title.compareDocumentPosition(answer) & Node.DOCUMENT_POSITION_FOLLOWING).at(-1);
+  for (const answer of answers) {
+    const title = titleOf(answer);
+    const same = answers.filter((other) => titleOf(other) === title);
+    const number = same.length > 1 ? ` ${same.indexOf(answer) + 1}` : "";
+    answer.querySelector("input").setAttribute("aria-label", `Your answer${number}: ${title.textContent}`);
+  }
   const tasks = [...figures.filter(({ dataset }) => dataset.lesson || dataset.task).map((figure) => [figure.id, figure]), ...answers.map((answer) => [answer.dataset.task, answer])];
   const sections = headings.map((heading, i) => {
     const next = headings[i + 1];
@@ -62,12 +70,12 @@ export function progress({ headings, figures }) {
 function ask(answer, done) {
   const input = answer.querySelector("input");
   const output = answer.querySelector("output");
-  const { answer: wanted, decimals } = input.dataset;
+  const { answer: wanted, decimals, unit } = input.dataset;
   input.addEventListener("change", () => {
-    const given = Number(input.value.trim().replace(",", ".").replace("−", "-"));
-    if (input.value.trim() === "" || Number.isNaN(given)) return (output.textContent = "Give a number.");
+    const { given, places } = read(input.value, unit);
+    if (Number.isNaN(given)) return (output.textContent = `Give a number${unit ? `, in ${unit}` : ""}.`);
     const right = printed(Number(wanted), input.dataset);
-    const near = Math.abs(given - parseFloat(right.replace("−", "-"))) <= 0.5 * 10 ** -Math.min(decimals, decimalsOf(input.value));
+    const near = Math.abs(given - parseFloat(right.replace("−", "-"))) <= 0.5 * 10 ** -Math.min(decimals, places);
     input.setAttribute("aria-invalid", String(!near));
     output.textContent = near ? `Right: ${right}.` : "Not yet.";
     tellAround({ kind: "answer", name: answer.dataset.task, given, wanted: parseFloat(right.replace("−", "-")), right: near });
@@ -75,4 +83,12 @@ function ask(answer, done) {
   });
 }
 
-const decimalsOf = (text) => text.match(/[.,](\d+)/)?.[1].length ?? 0;
+/** Units that stand for others, with how many decimal places they shift. */
+const UNITS = { m: { cm: 2, mm: 3 }, "°": { deg: 0, degrees: 0 } };
+
+/** The number that a text gives, in the unit that is asked for, and how many decimal places it has there; NaN where it is none. */
+function read(text, unit) {
+  const [, number, decimals = "", own] = text.trim().replace("−", "-").replace(",", ".").match(/^([+-]?(?:\d+\.?|\.(?=\d))(\d*))\s*(\S*)$/) ?? [];
+  const shift = own === "" || own === unit ? 0 : UNITS[unit]?.[own];
+  return number === undefined || shift === undefined ? { given: NaN, places: 0 } : { given: Number(`${number}e-${shift}`), places: decimals.length + shift };
+}

@@ -5,13 +5,12 @@ const KEPT = "motion-lab/course";
 /** Keeps what is done in the browser, for this visit alone where that keeps nothing. */
 export class Browser {
   kept = [];
-  counts = [];
   #keeps = true;
   #why;
 
-  /** `why` says why there is no platform, where one was expected. */
-  constructor(why = "") {
-    this.#why = why;
+  /** `counts` are the parts that count; `why` says why there is no platform, where one was expected. */
+  constructor(counts, why = "") {
+    [this.counts, this.#why] = [counts, why];
     try {
       this.kept = JSON.parse(localStorage.getItem(KEPT)) ?? [];
     } catch {

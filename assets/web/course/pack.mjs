@@ -71,7 +71,11 @@ function teacher() {
   markdown.renderer.rules.table_open = () => `<table tabindex="0">\n`;
   markdown.renderer.rules.fence = (tokens, i) => `<pre tabindex="0"><code>${escape(tokens[i].content)}</code></pre>\n`;
   const [page] = readFileSync(join(root, "docs/web/pack.md"), "utf8").split("\n## Make the pack\n");
-  const text = page.replace(/\[([^\]]*)\]\((?!https?:|#)[^)]*\)/g, "$1");
+  const whole = `All ${all.length} things count.`;
+  if (!page.includes(whole)) throw new Error(`docs/web/pack.md does not say: ${whole}`);
+  const isWhole = counts.length === Object.keys(PARTS).length;
+  const counted = isWhole ? page : page.replace(whole, `In this pack ${counts.map((name) => `*${PARTS[name]}*`).join(" and ")} count.`);
+  const text = counted.replace(/\[([^\]]*)\]\((?!https?:|#)[^)]*\)/g, "$1");
   return fill(source("teacher.html"), { style, policy: policy(hash(""), hash(style)), body: markdown.render(text), title: escape(text.match(/^# (.+)$/m)[1]), icon });
 }
 
@@ -82,7 +86,7 @@ for (const [name, contents] of folder(pages, source("begin.js"))) files.set(`fol
 for (const name of readdirSync(assignments)) files.set(`assignments/${name}`, readFileSync(join(assignments, name)));
 const icon = [...files.keys()].find((name) => /^lab\/icon\./.test(name));
 const bookKept = /const KEPT = "([^"]+)"/.exec(readFileSync(new URL("../book/progress.js", import.meta.url), "utf8"))[1];
-const course = JSON.stringify({ title: TITLE, parts: Object.keys(PARTS), bookKept, items: all }).replace(/</g, "\\u003c");
+const course = JSON.stringify({ title: TITLE, parts: Object.keys(PARTS), counts, bookKept, items: all }).replace(/</g, "\\u003c");
 files.set("index.html", fill(source("start.html"), { title: TITLE, style, script, course, icon, count: all.length, policy: policy(hash(script), hash(style)), lists: Object.keys(PARTS).map(list).join("\n") }));
 files.set("teacher.html", teacher());
 files.set("LICENSE.txt", readFileSync(join(root, "LICENSE")));

@@ -10,16 +10,16 @@ const root = document.documentElement;
 const ORIGIN = self.origin === "null" ? "*" : self.origin;
 /** Where the lab's pages are that work here. */
 const LAB = location.protocol === "file:" ? "folder" : "lab";
-const { title, items, parts, bookKept } = JSON.parse($("course").textContent);
+const { title, items, parts, counts, bookKept } = JSON.parse($("course").textContent);
 
 /** Who keeps what is done: the platform if there is one, else the browser. */
 function keeperOf() {
   const api = findApi(window);
-  if (!api) return new Browser();
+  if (!api) return new Browser(counts);
   try {
     return new Platform(api);
   } catch (error) {
-    return new Browser(`Your course's platform does not begin: ${error.message}. Nothing comes to its gradebook.`);
+    return new Browser(counts, `Your course's platform does not begin: ${error.message}. Nothing comes to its gradebook.`);
   }
 }
 
@@ -76,7 +76,7 @@ function go() {
   const wanted = asked();
   const was = open;
   open = wanted?.item ?? null;
-  judged = open?.goal ? judge(open.goal) : null;
+  [judged, far] = [open?.goal ? judge(open.goal) : null, null];
   $("list").hidden = Boolean(wanted);
   $("work").hidden = !wanted;
   root.dataset.opens = wanted ? location.hash.slice(1).split("/")[0] : "list";
@@ -109,7 +109,13 @@ function tell(text, heard = text) {
 }
 
 const byBook = new Map(items.filter(({ inBook }) => inBook).map((item) => [item.inBook, item.id]));
+const ask = (message) => $("place").querySelector("iframe").contentWindow.postMessage({ motionLab: message }, ORIGIN);
+let far = null; // what the run in the frame was last judged to be
 const hear = {
+  // an assignment's time runs once its reader has read it
+  ready() {
+    if (open?.goal) for (const message of [{ do: "pause" }, { do: "seek", tick: 0 }]) ask(message);
+  },
   progress: ({ done }) => done.forEach((name) => record.add(byBook.get(name))),
   answer({ name, given, wanted, right }) {
     const how = { given, wanted };
@@ -124,6 +130,7 @@ const hear = {
   state(state) {
     const found = judged?.(state);
     if (!found) return;
+    far = found;
     tell(found.text, found.isUnderWay ? "" : found.text);
     if (found.isDone) record.add(open.id, { given: `tick ${state.tick}` });
   },
@@ -134,7 +141,10 @@ addEventListener("message", ({ source, origin, data }) => {
   hear[said.kind]?.(said);
 });
 
-$("save").addEventListener("click", () => $("place").querySelector("iframe").contentWindow.postMessage({ motionLab: { do: "save" } }, ORIGIN));
+$("save").addEventListener("click", () => {
+  ask({ do: "save", name: open.id });
+  if (!far?.isDone && !record.has(open.id)) tell(`Saved as ${open.id}.mcap, but it is not there yet: as it is it would not pass.`);
+});
 $("anew").addEventListener("click", go);
 addEventListener("hashchange", go);
 

@@ -7,8 +7,9 @@ use serde_json::{Map, Value, json};
 
 use super::grade::read_assignment;
 use crate::cli::{Data, Failure, Outcome};
-use motion_lab_core::configuration::RobotKind;
-use motion_lab_core::picture::{Rgb, Role, Theme};
+use motion_lab_core::configuration::{Configuration, RobotKind};
+use motion_lab_core::picture::{Rgb, Role, Theme, in_signs};
+use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::course::Assignment;
 use motion_lab_sim::manifest::{ChapterFormula, Formula, Lesson, Widget};
 use motion_lab_sim::run::{Event, Quantized, RobotInput, Script, seconds};
@@ -74,11 +75,13 @@ fn assignment_json(path: &Path) -> Result<Value, Failure> {
     let (world, assignment) = read_assignment(path)?;
     let resident = &assignment.world().robots[assignment.robot()];
     let (goal, limits) = (assignment.goal(), assignment.limits());
+    let start = AnyRobot::of_resident(resident).map(|(_, q)| q.coordinate_names()).unwrap_or_default();
+    let names: Vec<String> = start.iter().map(|name| in_signs(name)).collect();
     let lengths = assignment.about().map_or(goal.at.len(), |about| about.lengths);
     let script = Script::new(vec![Event { tick: 1, robot: resident.name.clone(), input: rest(&assignment) }], vec![]);
     Ok(json!({
         "id": path.file_stem().unwrap_or_default().to_string_lossy(),
-        "world": world, "robot": resident.name,
+        "world": world, "robot": resident.name, "names": names,
         "at": goal.at, "within": goal.within, "is_angle": (0..goal.at.len()).map(|i| i >= lengths).collect::<Vec<_>>(),
         "hold": assignment.hold(), "ticks": limits.ticks, "seconds": seconds(limits.ticks), "contacts": limits.contacts,
         "script": script.to_line(),

@@ -21,7 +21,7 @@ use motion_lab_sim::plans::PlannerName;
 use motion_lab_sim::run::Script;
 
 /// The fields that a link has once. It may have several files, a world each.
-const FIELDS: [&str; 19] = [
+const FIELDS: [&str; 21] = [
     "v",
     "seed",
     "world",
@@ -30,6 +30,8 @@ const FIELDS: [&str; 19] = [
     "lesson",
     "tab",
     "q",
+    "step",
+    "thick",
     "plan",
     "from",
     "to",
@@ -187,6 +189,15 @@ impl LinkFields {
         numbers.ok_or(LinkError::Coordinates { field, text })
     }
 
+    /// Whether a field says so; it does not where it is left out.
+    fn yes(&mut self, field: &'static str) -> Result<bool, LinkError> {
+        match self.take(field) {
+            None => Ok(false),
+            Some(text) if text == "yes" => Ok(true),
+            Some(text) => Err(word(field, text, &["yes"])),
+        }
+    }
+
     /// What Plan shows; a wrong part of it makes another plan.
     fn plan(&mut self) -> Result<Option<LinkedPlan>, LinkError> {
         let Some(text) = self.take("plan") else { return Ok(None) };
@@ -205,11 +216,7 @@ impl LinkFields {
             plan.planner = Some(*planner.ok_or_else(|| word("planner", id, &known()))?);
         }
         plan.seed = self.number("planner_seed", MAX_PLANNER_SEED)?.map(Seed);
-        plan.lies = match self.take("lies") {
-            None => false,
-            Some(text) if text == "yes" => true,
-            Some(text) => return Err(word("lies", text, &["yes"])),
-        };
+        plan.lies = self.yes("lies")?;
         Ok(Some(plan))
     }
 
@@ -231,12 +238,18 @@ impl LinkFields {
         }
         if let Some(text) = self.take("tab") {
             match Tab::ALL.into_iter().find(|tab| tab.name() == text) {
-                Some(tab) => link.tab = Some(tab),
+                Some(tab) => link.anatomy.tab = Some(tab),
                 None => refuse(word("tab", text, &Tab::ALL.map(Tab::name))),
             }
         }
-        match self.coordinates("q") {
-            Ok(q) => link.q = q,
+        for (field, coordinates) in [("q", &mut link.anatomy.q), ("step", &mut link.anatomy.step)] {
+            match self.coordinates(field) {
+                Ok(read) => *coordinates = read,
+                Err(error) => refuse(error),
+            }
+        }
+        match self.yes("thick") {
+            Ok(is_thick) => link.anatomy.thick = is_thick,
             Err(error) => refuse(error),
         }
         match self.plan() {

@@ -1,5 +1,6 @@
 //! Links read back as written, whatever is in them; hostile ones are refused by name.
 
+mod anatomy;
 mod digits;
 mod plan;
 
@@ -9,6 +10,7 @@ use super::cited::requoted;
 use super::limits::{ESCAPED, MAX_NAME};
 use super::*;
 use motion_lab_core::worlds::Resident;
+use motion_lab_sim::anatomy::Tab;
 use motion_lab_sim::run::{Event, Quantized, RobotInput, WorldChange, WorldEvent};
 
 fn driven() -> Script {
@@ -35,8 +37,12 @@ fn a_link_reads_back_as_it_was_written() {
         tick: 600,
         widget: Some(Widget::Atlas),
         lesson: Some(Lesson::of("pick_wall").unwrap()),
-        tab: Some(Tab::Witness),
-        q: vec![-0.5, 1e-9, 3.0],
+        anatomy: LinkedAnatomy {
+            tab: Some(Tab::Witness),
+            q: vec![-0.5, 1e-9, 3.0],
+            step: vec![0.1 + 0.2, -0.0],
+            thick: true,
+        },
         plan: Some(LinkedPlan { lies: true, ..LinkedPlan::in_world("apartment", "Rusty") }),
         theme: Some(ThemeChoice::Dark),
         script: driven(),
@@ -165,7 +171,8 @@ fn a_wrong_field_of_what_to_show_costs_no_run_and_a_wrong_run_not_what_to_show()
     let ReadLink { link, run, view } = Link::read("seed=11&widget=moon&tab=swept&theme=pink&lesson=pick_wall&q=1;2");
     assert_eq!((run, link.seed), (Ok(()), Seed(11)));
     assert_eq!(view.unwrap_err().to_string().split(": ").next(), Some("widget"), "the first that is wrong");
-    assert_eq!((link.widget, link.tab, link.theme, &*link.q), (None, Some(Tab::Swept), None, &[][..]));
+    let anatomy = LinkedAnatomy { tab: Some(Tab::Swept), ..LinkedAnatomy::default() };
+    assert_eq!((link.widget, link.anatomy, link.theme), (None, anatomy, None));
     assert_eq!(link.lesson, Lesson::of("pick_wall"));
     // half a run would be another one
     let ReadLink { link, run, view } = Link::read("seed=11&tick=9x&widget=atlas&theme=dark");
@@ -259,12 +266,12 @@ fn a_refusal_says_nothing_in_the_words_of_the_link() {
 #[test]
 fn a_link_may_ask_query_and_names_what_it_can_not() {
     let link = Link::parse("tab=swept&q=0,-1.5").unwrap();
-    assert_eq!((link.tab, link.q), (Some(Tab::Swept), vec![0.0, -1.5]));
+    assert_eq!((link.anatomy.tab, link.anatomy.q), (Some(Tab::Swept), vec![0.0, -1.5]));
     for text in ["", "1,", "one", "inf,0", "NaN", "1;2", &["0"; 17].join(",")] {
         let refused = Link::parse(&format!("q={text}")).unwrap_err().to_string();
         assert!(refused.starts_with("q: it must be up to 16 numbers"), "{refused}");
     }
     let refused = Link::parse("tab=nearest").unwrap_err().to_string();
     assert_eq!(refused, "tab: it must be one of intersects, distance, witness, swept, not \"nearest\"");
-    assert_eq!(Link::parse(&format!("q={}", ["0"; 16].join(","))).unwrap().q.len(), 16);
+    assert_eq!(Link::parse(&format!("q={}", ["0"; 16].join(","))).unwrap().anatomy.q.len(), 16);
 }

@@ -155,6 +155,7 @@ fn state(world: &World) -> Value {
         "lit": ui.lit.map(Role::name),
         "formulas": formulas,
         "armed": ui.armed,
+        "covered": ui.is_covered(),
         "blocked": ui.twin.as_ref().and_then(AskedTwin::blocked),
         "notice": ui.notice().map(|n| json!({ "text": n.text, "error": n.is_error })),
         "robots": robots.collect::<Vec<_>>(),

@@ -4,10 +4,9 @@ use bevy::ecs::world::World;
 
 use super::error::PageError;
 use super::report::LinkedTheme;
-use crate::web::link::{Link, LinkedPlan, ReadLink, requoted};
+use crate::web::link::{Link, LinkedAnatomy, LinkedPlan, ReadLink, requoted};
 use crate::window::for_page::{Interface, SessionError, new_run, shown_run};
 use crate::window::ui::{AnatomyState, Notice};
-use motion_lab_core::configuration::Configuration as _;
 use motion_lab_sim::anatomy::Anatomy;
 use motion_lab_sim::manifest::{ThemeChoice, Widget};
 use motion_lab_sim::plans::PlannerName;
@@ -29,9 +28,9 @@ pub fn show_address(world: &mut World, address: ReadLink, before: RunBefore) {
     let ReadLink { link, run, view } = address;
     let mut refused = run.and(view).err().map(|error| error.to_string());
     let refusal = show_view(world, &link);
-    refused = refused.or(refusal.map(|why| format!("q: {why}")));
-    let Link { widget, lesson, tab, q, plan, theme, .. } = link.clone();
-    let has_run = link != (Link { widget, lesson, tab, q, plan, theme, ..Link::default() });
+    refused = refused.or(refusal);
+    let Link { widget, lesson, anatomy, plan, theme, .. } = link.clone();
+    let has_run = link != (Link { widget, lesson, anatomy, plan, theme, ..Link::default() });
     if has_run || before == RunBefore::Other {
         let told = open_link(world, &link);
         let notice = told.unwrap_or_else(|error| Some(refusal_of(&requoted(&error))));
@@ -49,23 +48,22 @@ fn refusal_of(why: &str) -> Notice {
     Notice { text: format!("the link: {why}"), is_error: true }
 }
 
-/// Puts in front what a link names. Returns why Query's robot can't be where it says, if it can't.
+/// Puts in front what a link names. Returns what Query's robot does not take of it and why, if anything.
 fn show_view(world: &mut World, link: &Link) -> Option<String> {
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-    let implied = link.tab.map(|_| Widget::Anatomy).or(link.plan.as_ref().map(|_| Widget::Plan));
+    let implied = link.anatomy.tab.map(|_| Widget::Anatomy).or(link.plan.as_ref().map(|_| Widget::Plan));
     ui.widget = link.widget.or(implied).unwrap_or_default();
     ui.lesson = None;
     if let Some(lesson) = link.lesson {
         ui.begin(lesson);
     }
     // an address is about Query's usual robot
-    if (link.tab.is_some() || !link.q.is_empty()) && !is_books(&ui.anatomy.anatomy) {
+    if link.anatomy != LinkedAnatomy::default() && !is_books(&ui.anatomy.anatomy) {
         ui.anatomy = AnatomyState::default();
     }
     let query = &mut ui.anatomy.anatomy;
-    query.tab = link.tab.unwrap_or(query.tab);
-    let refusal = if link.q.is_empty() { None } else { put(query, &link.q).err() };
-    if let Some(lesson) = ui.lesson.as_mut().filter(|_| !link.q.is_empty()) {
+    let refusal = link.anatomy.show_in(query).err();
+    if let Some(lesson) = ui.lesson.as_mut().filter(|_| !link.anatomy.q.is_empty()) {
         lesson.start = Some(query.q());
     }
     if ui.widget == Widget::Plan && link.plan.is_none() {
@@ -85,13 +83,6 @@ fn show_view(world: &mut World, link: &Link) -> Option<String> {
         world.insert_resource(LinkedTheme { theme, own });
     }
     refusal
-}
-
-/// Puts Query's robot at chart coordinates.
-fn put(query: &mut Anatomy, q: &[f64]) -> Result<(), String> {
-    let count = query.q().coordinates().len();
-    let q = query.q().with_coordinates(q).ok_or_else(|| format!("the robot has {count} coordinates"))?;
-    query.set_q(q).map_err(|error| error.to_string())
 }
 
 /// Starts a link's run, simulates it up to its tick, and compares the digest with that of the link.
@@ -137,8 +128,8 @@ pub fn link_of(world: &World) -> Result<Link, PageError> {
     link.widget = Some(ui.widget).filter(|w| *w != Widget::Dashboard);
     link.lesson = ui.lesson.as_ref().map(|under_way| under_way.lesson).filter(|lesson| lesson.widget == ui.widget);
     if matches!(ui.widget, Widget::Anatomy | Widget::Cspace) && is_books(&ui.anatomy.anatomy) {
-        link.tab = Some(ui.anatomy.anatomy.tab).filter(|_| ui.widget == Widget::Anatomy);
-        link.q = ui.anatomy.anatomy.q().coordinates().to_vec();
+        link.anatomy = LinkedAnatomy::of(&ui.anatomy.anatomy);
+        link.anatomy.tab = link.anatomy.tab.filter(|_| ui.widget == Widget::Anatomy);
     }
     if ui.widget == Widget::Plan && link.lesson.is_none() {
         link.plan = LinkedPlan::of(ui.plan.task(), ui.plan.planner(), ui.plan.seed());
@@ -149,6 +140,7 @@ pub fn link_of(world: &World) -> Result<Link, PageError> {
 
 /// Whether Query's robot and world are those that it begins with: an address can't name others.
 fn is_books(query: &Anatomy) -> bool {
-    let usual = AnatomyState::default().anatomy;
-    query.checker().robot() == usual.checker().robot() && query.world() == usual.world()
+    let (usual, mut bare) = (AnatomyState::default().anatomy, query.clone());
+    bare.set_thick_links(false);
+    bare.checker().robot() == usual.checker().robot() && query.world() == usual.world()
 }

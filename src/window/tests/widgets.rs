@@ -1,6 +1,7 @@
 //! Query anatomy, configuration space and atlas.
 
 mod fingers;
+mod focus;
 mod layout;
 mod lesson_ends;
 mod lessons;

@@ -7,6 +7,7 @@ use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, Vec2, vec2};
 use super::dashboard::{self, hand::drive};
 use super::keys::{Action, Situation, pressed};
 use super::paint::button::LabButton;
+use super::paint::frame::focus_ring;
 use super::paint::icon::Icon;
 use super::paint::style::ScreenTheme;
 use super::time::transport_bar;
@@ -126,6 +127,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
     super::closing::closing(ui.ctx(), &look, state, commands);
+    focus_ring(ui.ctx(), &look);
     state.typing = ui.ctx().text_edit_focused();
     if state.pointed.is_some() || state.lit.is_some() {
         // the fade goes on without further input

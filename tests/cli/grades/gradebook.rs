@@ -246,16 +246,33 @@ fn a_gradebook_has_a_row_for_each_submission() {
     assert_eq!(
         lines,
         [
-            "submission,passed,points,max_points,seeds_passed,seeds,seed,verdict,tick,contacts,reversals,metres,radians,refused",
-            "\"a, b.ron\",true,7,7,2,2,1,passed,12,0,0,0.1000,0.0000,",
-            "'=away.ron,false,0,7,0,2,1,missed the goal,60,0,0,0.7000,0.0000,",
-            "nobody.ron,false,,7,0,2,,,,,,,,not graded: there is no such file",
+            "submission,passed,points,max_points,seeds_passed,seeds,seed,verdict,tick,contacts,reversals,metres,radians,refused,same_as",
+            "\"a, b.ron\",true,7,7,2,2,1,passed,12,0,0,0.1000,0.0000,,",
+            "'=away.ron,false,0,7,0,2,1,missed the goal,60,0,0,0.7000,0.0000,,",
+            "nobody.ron,false,,7,0,2,,,,,,,,not graded: there is no such file,",
         ]
     );
     let columns = |line: &str| line.replace("a, b", "a").split(',').count();
-    assert!(lines.iter().all(|line| columns(line) == 14), "{book}");
+    assert!(lines.iter().all(|line| columns(line) == 15), "{book}");
     assert_eq!(run_in(folder.path(), &[&["grade", "--format", "csv"], &arguments[2..]].concat()).out, book);
     run_in(folder.path(), &["grade", "--csv", "--json", "exam.ron", "a, b.ron"]).failed(2);
+}
+
+#[test]
+fn inputs_that_were_handed_in_twice_are_named() {
+    let files =
+        [("exam.ron", PARK), ("ann.ron", &*stops_at(14)), ("ben.ron", &*stops_at(13)), ("cy.ron", &*stops_at(14))];
+    let folder = folder(&files);
+    // a log of the same inputs is no other work, and spaces in a script are none
+    run_in(folder.path(), &["record", "--world", "lot", "--script", "ann.ron", "--duration", "60t", "-o", "dan.mcap"]);
+    std::fs::write(folder.path().join("eve.ron"), stops_at(14).replace(", ", ",  ")).unwrap();
+    let book =
+        run_in(folder.path(), &["grade", "--csv", "exam.ron", "ann.ron", "ben.ron", "cy.ron", "dan.mcap", "eve.ron"])
+            .out;
+    let same: Vec<&str> = book.lines().skip(1).filter_map(|line| line.rsplit(',').next()).collect();
+    assert_eq!(same, ["", "", "ann.ron", "ann.ron", "ann.ron"], "{book}");
+    let table = run_in(folder.path(), &["grade", "exam.ron", "ann.ron", "cy.ron"]).out;
+    assert_eq!(table.matches("the same inputs as ann.ron").count(), 1, "{table}");
 }
 
 /// Gradescope's autograder specification: `score`, `output`, `tests`; of a test `name`, `score`, `max_score`, `status`,

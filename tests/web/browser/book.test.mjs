@@ -227,7 +227,11 @@ lab("answers are judged where they stand and kept; the dots tell, to a page arou
   };
   assert.match(await give("0.0607"), /Not yet/);
   assert.equal(await answer.locator("input").getAttribute("aria-invalid"), "true");
-  assert.match(await give("three"), /number/);
+  assert.equal(await answer.locator("input").getAttribute("aria-label"), "Your answer: The example by hand");
+  for (const text of ["three", "", "3 apples", "0.03 rad", "m"]) assert.equal(await give(text), "Give a number, in m.", text);
+  // 3 cm would be 0.030 m, if as many digits count as are given
+  for (const text of ["3.07 cm", "30.7mm", "0.0307 m", ".0307", "0.031"]) assert.match(await give(text), /Right: 0\.0307 m/, text);
+  for (const text of ["3.07", "3.07 mm", "-0.0307 m", "2 cm"]) assert.match(await give(text), /Not yet/, text);
   assert.match(await give("0,0307"), /Right: 0\.0307 m/, "a comma is a point");
   const dot = page.locator('#dots a[href="#the-example-by-hand"]').locator("..");
   assert.equal(await dot.getAttribute("data-done"), "");

@@ -3,15 +3,16 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { readFileSync, rmSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
-import { shots, target } from "./harness.mjs";
+import { shots } from "./harness.mjs";
 
 const ROOT = join(import.meta.dirname, "../../..");
 const PLAYER = readFileSync(process.env.MOTION_LAB_SCORM);
 
-/** Makes the pack of the site under test; gives its path. */
+/** Makes a pack of the site under test, beside the one that is given out; gives its path. */
 export function pack(...words) {
-  execFileSync(join(ROOT, "assets/web/pack"), words, { stdio: "pipe" });
-  return join(target, "motion-lab-course.zip");
+  const path = join(shots, "course.zip");
+  execFileSync(join(ROOT, "assets/web/pack"), words, { stdio: "pipe", env: { ...process.env, MOTION_LAB_PACK: path } });
+  return path;
 }
 
 /** What Python's own reader finds in a zip: names and sizes, after every byte was checked. */

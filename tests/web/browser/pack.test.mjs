@@ -58,6 +58,9 @@ test("the zip is read by others, has what its manifest says, and is the same eac
   // the check value of CRC-32 (Williams, 1993)
   assert.equal(crc32(Buffer.from("123456789")), 0xcbf43926);
   const zip = pack("book,lessons");
+  const page = (name) => execFileSync("unzip", ["-p", zip, name], { encoding: "utf8" });
+  assert.match(page("teacher.html"), /In this pack <em>The book<\/em> and <em>Lessons<\/em> count\. If only/);
+  assert.match(page("index.html"), /"counts":\["book","lessons"\]/, "from a folder too");
   const first = readFileSync(zip);
   const found = readByPython(zip);
   assert.deepEqual(found.files, found.names.filter((name) => name !== "imsmanifest.xml"));
@@ -86,11 +89,12 @@ test("times have the forms of the run-time environment", () => {
 });
 
 test("a run is judged by where it is, how long, and what it touched", () => {
-  const car = { robot: "Hitch", at: [6.75, 8.875, -Math.PI / 2], within: [0.2, 0.2, 0.1], is_angle: [false, false, true], hold: 20, ticks: 2400, seconds: 120, contacts: 0 };
+  const car = { robot: "Hitch", names: ["x", "y", "θ"], at: [6.75, 8.875, -Math.PI / 2], within: [0.2, 0.2, 0.1], is_angle: [false, false, true], hold: 20, ticks: 2400, seconds: 120, contacts: 0 };
   const at = (tick, coordinates, contacts = 0) => ({ tick, robots: [{ name: "Hitch", coordinates, contacts }] });
   const parked = [6.7, 8.9, (3 * Math.PI) / 2];
   const says = judge(car);
-  assert.equal(says(at(1, [6.75, 7.875, 0])).text, "Off by 1.00 m and 90°; 120 s are left.");
+  assert.equal(says(at(1, [6.75, 7.875, 0])).text, "Off by y 1.00 m, θ 90°; 120 s are left.");
+  assert.equal(says(at(0, [6.75, 7.875, 0])).text, "Press Play to begin: you have 120 s.");
   assert.equal(says(at(100, parked)).text, "It is there: let it stand for a second.");
   assert.equal(says(at(119, parked)).isDone, false);
   assert.equal(says(at(120, parked)).isDone, true);
@@ -227,6 +231,11 @@ async function handIn(page, id, robot, world, to) {
   await outer.evaluate((id) => (location.hash = `#assignments/${id}`), id);
   const lab = await inner(page, /embed\.html/);
   const says = (words) => outer.waitForFunction((words) => new RegExp(words).test(document.getElementById("task-far").textContent), words, { timeout: 60000 });
+  // its time does not run while it is read
+  await says("^Press Play to begin: you have 120 s\\.$");
+  await lab.waitForTimeout(700);
+  assert.equal(await lab.evaluate(() => window.received.state.tick), 0);
+  await send(lab, { do: "play" });
   await says("^Off by .*; 1\\d\\d s are left\\.$");
   assert.equal(await outer.textContent("#task-said"), "", "who listens does not hear each second");
   assert.equal((await lab.evaluate(() => window.received.state.robots))[0].driven, true, "it stands until somebody drives it");
@@ -239,8 +248,9 @@ async function handIn(page, id, robot, world, to) {
   assert.match(await outer.textContent("#task-said"), /^It is there/);
   await send(lab, { do: "pause" });
   await page.screenshot({ path: join(shots, `course-${id}.png`) });
-  await outer.click("#save");
-  const { path } = await download(page, () => lab.click("#asked-save"));
+  // a page of the lab's own does not have to ask
+  const { path, name } = await download(page, () => outer.click("#save"));
+  assert.equal(name, `${id}.mcap`);
   const log = join(shots, `${id}.mcap`);
   writeFileSync(log, readFileSync(path));
   const { passed, points } = JSON.parse(native("grade", "--json", join(folder, "assignments", `${id}.ron`), log).split("\n")[0]);

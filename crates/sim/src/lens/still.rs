@@ -29,6 +29,8 @@ pub struct LensWords {
     pub widget: &'static str,
     /// The question's name.
     pub tab: &'static str,
+    /// The names of all questions; none for the configuration space.
+    pub tabs: Vec<&'static str>,
     /// The question, in a sentence; empty for the configuration space.
     pub question: &'static str,
     /// What matters most of the answer.
@@ -75,6 +77,7 @@ impl Lens {
         LensWords {
             widget: self.widget().id(),
             tab: anatomy.tab.name(),
+            tabs: Tab::ALL.into_iter().filter(|_| !is_space).map(Tab::name).collect(),
             question: if is_space { "" } else { anatomy.question() },
             touches: anatomy.intersects() && !is_swept,
             described: anatomy.described(),

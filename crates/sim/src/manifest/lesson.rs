@@ -4,6 +4,9 @@ use super::{Hint, HintTask, Widget};
 use crate::anatomy::{Anatomy, Tab};
 use motion_lab_core::configuration::AnyConfiguration;
 
+/// The step in the first coordinate with which a lesson about motions begins: from where they begin, it is free.
+const FREE_STEP: f64 = 0.2;
+
 /// A hint by itself, for which a link or a page asks by its id.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Lesson {
@@ -63,6 +66,10 @@ impl Lesson {
         };
         let mut scene = Anatomy::default().with_tab(tab);
         scene.show_annulus = self.task == HintTask::TwoPoints;
+        if matches!(self.task, HintTask::Hit | HintTask::FreeEnds) {
+            // a motion that is free: what hits is to be found
+            scene.set_step(0, FREE_STEP);
+        }
         if let Some(q) = start {
             // another robot's is none of this one's
             _ = scene.set_q(q);
@@ -89,6 +96,22 @@ mod tests {
         }
         assert_eq!(ids, Lesson::all().map(Lesson::id).collect::<Vec<_>>());
         assert_eq!(Lesson::of("reset").unwrap().next(), Lesson::of("touch"), "on to the next widget");
+    }
+
+    #[test]
+    fn what_is_to_hit_begins_with_a_motion_that_is_free() {
+        use motion_lab_core::collision::EdgeVerdict;
+        use motion_lab_core::configuration::T2;
+
+        // where Query begins, and where the book's figure does
+        for start in [None, Some(AnyConfiguration::T2(T2::new(2.0, 0.0)))] {
+            for id in ["hit", "free_ends"] {
+                let scene = Lesson::of(id).unwrap().scene(start);
+                let verdict = scene.sweep().unwrap().verdict;
+                assert!(matches!(verdict, EdgeVerdict::Free { .. }), "{id}: {verdict:?}");
+                assert!(scene.step()[0] > 0.0, "it goes somewhere");
+            }
+        }
     }
 
     #[test]

@@ -23,7 +23,9 @@ pub fn anatomy(args: &SceneArgs) -> Result<Captured, Failure> {
 
 /// The workspace and beside it the configuration space.
 pub fn cspace(args: &SceneArgs) -> Result<Captured, Failure> {
-    let anatomy = frozen(args)?.with_tab(Tab::Swept);
+    // a motion is drawn where one is asked for
+    let tab = if args.step.is_some() { Tab::Swept } else { Tab::default() };
+    let anatomy = frozen(args)?.with_tab(tab);
     let slice = Slice::through(anatomy.checker(), &anatomy.q()).map_err(|e| Failure::usage(e, "Change --q."))?;
     let mut map = CellMap::new(slice, args.cells.unwrap_or(9));
     judge(&mut map, args.budget.unwrap_or(u32::MAX));

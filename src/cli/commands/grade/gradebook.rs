@@ -8,7 +8,7 @@ use crate::cli::support::words::counted;
 use super::graded::{Graded, GradedCriterion, Tried, in_words, rounded};
 
 /// The first row of the table.
-pub const HEAD: &str = "submission,passed,points,max_points,seeds_passed,seeds,seed,verdict,tick,contacts,reversals,metres,radians,refused";
+pub const HEAD: &str = "submission,passed,points,max_points,seeds_passed,seeds,seed,verdict,tick,contacts,reversals,metres,radians,refused,same_as";
 
 /// A submission's row. From `seed` on it is the first attempt that does not pass; if all pass, the first.
 pub fn row(graded: &Graded) -> String {
@@ -24,12 +24,13 @@ pub fn row(graded: &Graded) -> String {
     };
     let Graded { submission, points, max_points, seeds, .. } = graded;
     format!(
-        "{},{},{},{},{passed},{seeds},{attempt},{}",
+        "{},{},{},{},{passed},{seeds},{attempt},{},{}",
         csv_cell(submission),
         graded.passed,
         points.map_or_else(String::new, |points| rounded(points.0)),
         rounded(max_points.0),
-        csv_cell(&graded.reason().unwrap_or_default())
+        csv_cell(&graded.reason().unwrap_or_default()),
+        csv_cell(graded.same_as.as_deref().unwrap_or_default())
     )
 }
 
@@ -110,11 +111,12 @@ mod tests {
             seeds: attempts.len(),
             forged_at: None,
             refused: None,
+            same_as: None,
             attempts,
         };
         let mixed = graded(vec![tried(4, true), tried(5, false), tried(6, false)]);
-        assert_eq!(row(&mixed), "s.ron,false,1,3,1,3,5,v,9,0,0,,,");
-        assert_eq!(row(&graded(vec![tried(4, true), tried(5, true)])), "s.ron,false,1,3,2,2,4,v,9,0,0,,,");
+        assert_eq!(row(&mixed), "s.ron,false,1,3,1,3,5,v,9,0,0,,,,");
+        assert_eq!(row(&graded(vec![tried(4, true), tried(5, true)])), "s.ron,false,1,3,2,2,4,v,9,0,0,,,,");
     }
 
     #[test]

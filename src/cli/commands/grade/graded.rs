@@ -23,6 +23,8 @@ pub struct Graded {
     pub forged_at: Option<u64>,
     /// The reason why it was refused, or not graded.
     pub refused: Option<String>,
+    /// The first submission with the same inputs, where another one came before.
+    pub same_as: Option<String>,
     pub attempts: Vec<Tried>,
 }
 
@@ -92,6 +94,7 @@ impl Graded {
             seeds: assignment.seeds().len(),
             forged_at,
             refused: grade.refusal.as_ref().map(Refusal::to_string),
+            same_as: None,
             attempts: grade.attempts.iter().map(tried).collect(),
         }
     }
@@ -114,6 +117,7 @@ impl Graded {
             seeds: assignment.seeds().len(),
             forged_at: None,
             refused: Some(reason),
+            same_as: None,
             attempts: Vec::new(),
         }
     }
@@ -142,6 +146,9 @@ impl Graded {
             data.line(format!(
                 "{name:width$}  {seed:>6}  {verdict:18}  {tick:>4}  {contacts:>8}  {reversals:>9}  {far}"
             ))?;
+        }
+        if let Some(other) = &self.same_as {
+            data.line(format!("{name:width$}  {:>6}  the same inputs as {}", "-", in_one_line(other)))?;
         }
         if self.criteria.iter().any(|c| c.name != "all") {
             let part =

@@ -4,6 +4,7 @@ mod gradebook;
 mod graded;
 mod submissions;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -120,6 +121,7 @@ impl GradeArgs {
             ReportForm::Json | ReportForm::Gradescope => {}
         }
         let (ticks, seeds) = (assignment.limits().ticks, assignment.seeds().len() as u64);
+        let mut first_with: BTreeMap<String, String> = BTreeMap::new();
         let progress = CommandProgress::of(names.len() as u64 * seeds * ticks, "ticks");
         for ((path, name), number) in files.iter().zip(&names).zip(0_u64..) {
             let before = number * seeds * ticks;
@@ -131,7 +133,9 @@ impl GradeArgs {
                     if let Some(Refusal::Run(RunError::Spawn(SpawnError::UnknownKind { .. }))) = grade.refusal {
                         say(format!("{name}: {}", unknown_kind()));
                     }
-                    Graded::new(name.clone(), &assignment, &grade)
+                    let first = first_with.entry(inputs(&submission)).or_insert_with(|| name.clone());
+                    let same_as = Some(first.clone()).filter(|first| first != name);
+                    Graded { same_as, ..Graded::new(name.clone(), &assignment, &grade) }
                 }
                 Ok(SubmissionFile::Refused(reason)) => Graded::refused(name.clone(), &assignment, reason),
                 Ok(SubmissionFile::Forged(reason)) => {
@@ -166,6 +170,15 @@ impl GradeArgs {
             (false, true) => Outcome::BadInput,
             (false, false) => Outcome::NotPassed,
         })
+    }
+}
+
+/// The inputs of a submission, as a script's canonical text. Students who work by themselves do not have the same.
+fn inputs(submission: &Submission) -> String {
+    match submission {
+        Submission::Script(script) => script.to_line(),
+        Submission::Log(log) => log.recipe.script.to_line(),
+        other => format!("{other:?}"),
     }
 }
 

@@ -65,19 +65,23 @@ fn every_number_of_a_link_has_all_its_digits() {
             vec![event(1, "Reach", RobotInput::MoveTo(to.clone())), event(2, "Reach", RobotInput::Teleport(to))],
             vec![WorldEvent { tick: 1, world: "Apartment".into(), change }],
         );
+        let anatomy = LinkedAnatomy { step: q.clone(), q, ..LinkedAnatomy::default() };
         let link =
-            Link { seed, sensor: Some(sensor), tick, q, script, digest: Some(digest.clone()), ..Link::default() };
+            Link { seed, sensor: Some(sensor), tick, anatomy, script, digest: Some(digest.clone()), ..Link::default() };
         let query = link.query().unwrap();
         let read = Link::parse(&query).unwrap();
         assert_eq!(read, link);
         let of = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        assert_eq!(of(&read.q), of(&link.q), "zero has its sign too");
+        let q = &link.anatomy.q;
+        assert_eq!([&read.anatomy.q, &read.anatomy.step].map(|all| of(all)), [of(q), of(q)], "zero has its sign too");
         assert_eq!(read.sensor.unwrap().max_range.to_bits(), sensor.max_range.to_bits());
         // by the other reader
         let fields = fields(&query);
         let text = |name: &str| fields.iter().find(|field| field.0 == name).unwrap().1.clone();
-        let numbers: Vec<f64> = text("q").split(',').map(|x| x.parse().unwrap()).collect();
-        assert_eq!(of(&numbers), of(&link.q));
+        for name in ["q", "step"] {
+            let numbers: Vec<f64> = text(name).split(',').map(|x| x.parse().unwrap()).collect();
+            assert_eq!(of(&numbers), of(q), "{name}");
+        }
         assert_eq!((text("seed"), text("tick"), text("digest")), (seed.0.to_string(), tick.to_string(), digest));
         let (rays, range) = text("sensor").split_once(',').map(|(n, r)| (n.to_owned(), r.to_owned())).unwrap();
         assert_eq!((rays, range.parse()), (sensor.n_rays.to_string(), Ok(sensor.max_range)));

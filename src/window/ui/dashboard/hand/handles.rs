@@ -122,7 +122,8 @@ fn handle(
     let response = ui.interact(hit, id, Sense::click_and_drag());
     let angle = to_come(robot).get(link).copied().unwrap_or_default();
     let label = format!("{}: {name}, {} in radians", robot.name, joint_sign(link));
-    response.widget_info(|| WidgetInfo::slider(true, angle, &label));
+    // as many digits as are shown: a screen reader says them all
+    response.widget_info(|| WidgetInfo::slider(true, (angle * 1e4).round() / 1e4, &label));
     if response.drag_started() || response.clicked() {
         response.request_focus();
     }

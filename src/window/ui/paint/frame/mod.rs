@@ -1,9 +1,11 @@
 //! The frame of a widget: its title, the misconception it removes, its colour key and the first hints.
 
+mod focus_ring;
 mod formulas;
 mod hints;
 mod title;
 
+pub use focus_ring::focus_ring;
 pub use formulas::{formula, formulas};
 pub use hints::{hints, is_done_here, next_hint};
 pub use title::{headline, key_row, misconception, name, rests, row_height, rows_of_words, title};

@@ -61,14 +61,6 @@ fn key(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiStat
         response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("colour key: {}", entry.text)));
         swatch(ui, role, rect.left_center() + vec2(5.0, 0.0), look);
         ui.painter().galley(rect.left_center() + vec2(16.0, -0.5 * text.size().y), text, look.colour(Role::Text));
-        if response.has_focus() {
-            ui.painter().rect_stroke(
-                rect.expand(2.0),
-                2.0,
-                Stroke::new(1.0, look.colour(Role::Focus)),
-                StrokeKind::Outside,
-            );
-        }
         points_at(state, &response, role);
     }
 }
