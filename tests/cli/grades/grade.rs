@@ -287,12 +287,12 @@ fn what_an_assignment_asks_for_is_told_to_pages_that_judge_by_it() {
     let expected = serde_json::json!([
         {
             "id": "exam", "world": "lot", "robot": "Hitch", "at": [7.5, 2.5, 0.0], "within": [0.1, 0.1, 0.1],
-            "is_angle": [false, false, true], "hold": 1, "ticks": 200, "seconds": 10.0, "contacts": 0,
+            "names": ["x", "y", "\u{3b8}"], "is_angle": [false, false, true], "hold": 1, "ticks": 200, "seconds": 10.0, "contacts": 0,
             "script": "Script(version:1,events:[(tick:1,robot:\"Hitch\",input:Drive(0,0)),])",
         },
         {
             "id": "arm", "world": "workbench", "robot": "Reach", "at": [turn, 0.0], "within": [0.1, turn / 180.0],
-            "is_angle": [true, true], "hold": 7, "ticks": 200, "seconds": 10.0, "contacts": null,
+            "names": ["\u{3b8}\u{2081}", "\u{3b8}\u{2082}"], "is_angle": [true, true], "hold": 7, "ticks": 200, "seconds": 10.0, "contacts": null,
             // in units of 2^-20 rad
             "script": "Script(version:1,events:[(tick:1,robot:\"Reach\",input:MoveTo([1647099,524288])),])",
         },

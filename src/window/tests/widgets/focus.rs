@@ -1,14 +1,14 @@
 //! What has the keys is seen to have them.
 
 use super::*;
+use crate::window::ui::paint::style::ScreenTheme;
 use motion_lab_core::picture::Role;
 
 /// The boxes that are ringed in the colour of the focus.
 fn ringed(harness: &Harness<'_, Lab>) -> Vec<egui::Rect> {
-    let colour = harness.state().app.world().resource::<Interface>().0.theme().palette().colour(Role::Focus);
-    let egui_colour = egui::Color32::from_rgb(colour.0[0], colour.0[1], colour.0[2]);
+    let colour = harness.state().app.world().resource::<Interface>().0.theme().colour(Role::Focus);
     let boxes = harness.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
-        egui::Shape::Rect(shape) if shape.stroke.color == egui_colour && shape.stroke.width > 1.5 => Some(shape.rect),
+        egui::Shape::Rect(shape) if shape.stroke.color == colour && shape.stroke.width > 1.5 => Some(shape.rect),
         _ => None,
     });
     boxes.collect()
