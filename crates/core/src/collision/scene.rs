@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::boundary::grid::Cells;
 use super::boundary::segments::SegmentSoup;
+use super::boundary::sight::SightCells;
 use super::broad::frames::Frames;
 use super::broad::index::Index;
 use super::narrow::convex::NearestPoints;
@@ -36,6 +37,8 @@ pub struct Scene {
     soup: SegmentSoup,
     /// The grid over the boundary; `None` in a small scene.
     cells: Option<Cells>,
+    /// What can be seen from where, in a small scene; copies of the scene share it.
+    sight: Option<Arc<SightCells>>,
     pub(super) index: Index,
     /// The pieces' turned boxes; `None` in a large scene.
     pub(super) frames: Option<Frames>,
@@ -137,10 +140,11 @@ impl Scene {
         let soup = SegmentSoup::of_pieces(&pieces);
         let many = soup.segments().len() + soup.circles().len() > MANY;
         let cells = if many { Cells::new(&soup) } else { None };
+        let sight = if many { None } else { SightCells::new(soup.segments()).map(Arc::new) };
         let valid = pieces.iter().all(Placed::is_valid);
         let size = if valid { largest_coordinate(&pieces) } else { f64::INFINITY };
         let (index, frames) = (Index::new(&extents), Frames::new(&pieces));
-        Scene { bounds, names, pieces, owners, soup, cells, index, frames, size }
+        Scene { bounds, names, pieces, owners, soup, cells, sight, index, frames, size }
     }
 
     /// The part of the plane the scene shows; not an obstacle.
@@ -189,6 +193,19 @@ impl Scene {
     /// The grid over the boundary; `None` in a small scene.
     pub(crate) fn cells(&self) -> Option<&Cells> {
         self.cells.as_ref()
+    }
+
+    /// The arrays of the boundary's segments, without some that a scan of this reach from a point cannot meet first.
+    pub(crate) fn seen_from(&self, origin: Point2, reach: f64) -> [&[f64]; 4] {
+        let segments = self.soup.segments();
+        let seen = self.sight.as_ref().and_then(|sight| sight.seen_from(origin, reach, segments));
+        seen.unwrap_or(segments.arrays())
+    }
+
+    /// The same scene, which lists nothing.
+    #[cfg(test)]
+    pub(crate) fn without_lists(&self) -> Self {
+        Scene { sight: None, ..self.clone() }
     }
 
     /// Whether a shape, such as a point or a line, touches an obstacle; true for a shape that is not valid.

@@ -14,7 +14,7 @@ use crate::num;
 use crate::worlds::{FanSensor, RangeSensor};
 
 /// A range sensor that keeps its rays' directions and its scratch between scans: after the first scans it allocates
-/// nothing.
+/// nothing. A small scene allocates when it lists what can be seen from a place where many scans begin, once a place.
 ///
 /// ```
 /// use motion_lab_core::prelude::*;
@@ -128,7 +128,9 @@ impl Scanner {
         let Scanner { kernel, fan, walk, desk, others: soup, .. } = self;
         match scene.cells() {
             Some(cells) => walk.raise(Boundary { soup: scene.soup(), cells }, &view, kernel, fan, desk),
-            None => raise_every(scene.soup(), &view, kernel, fan, desk),
+            None => {
+                raise_those(scene.seen_from(origin, reach), scene.soup().circles(), &view, kernel, fan, desk);
+            }
         }
         fan.open = u64::MAX;
         soup.clear();
@@ -140,7 +142,7 @@ impl Scanner {
                 _ => soup.push(part),
             }
         }
-        raise_every(soup, &view, kernel, fan, desk);
+        raise_those(soup.segments().arrays(), soup.circles(), &view, kernel, fan, desk);
         (self.kernel.ranges)(&self.fan, sensor.max_range, ranges);
     }
 }
@@ -156,10 +158,17 @@ fn may_hold(shape: &Placed, p: Point2) -> bool {
     (min.x..=max.x).contains(&p.x) && (min.y..=max.y).contains(&p.y)
 }
 
-/// Raises the rays that meet anything of the soup.
-fn raise_every(soup: &SegmentSoup, view: &View, kernel: &Kernel, fan: &mut Fan, desk: &mut RayMemory) {
-    raise(soup.segments().arrays(), view, kernel, fan, desk);
-    for circle in soup.circles() {
+/// Raises the rays that meet any of these segments and discs.
+fn raise_those(
+    segments: [&[f64]; 4],
+    circles: &[Circle],
+    view: &View,
+    kernel: &Kernel,
+    fan: &mut Fan,
+    desk: &mut RayMemory,
+) {
+    raise(segments, view, kernel, fan, desk);
+    for circle in circles {
         (kernel.circle)(circle, view, fan);
     }
 }

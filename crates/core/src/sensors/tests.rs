@@ -1,5 +1,7 @@
 //! The scan against its definition, ray by ray, to the last bit and on every instruction set of this processor.
 
+mod sight;
+
 use std::f64::consts::{PI, TAU};
 
 use super::{FanSensor, Instructions, RangeSensor, Scanner};
