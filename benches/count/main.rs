@@ -32,6 +32,30 @@ fn scans(scene: &Scene, side: f64, max_range: f64, instructions: Instructions, t
     }
 }
 
+/// Scans of the Apartment by a robot that drives round and round it, 3 cm a tick.
+fn apartment(instructions: Instructions, times: usize) {
+    let scene = Scene::apartment();
+    let mut scanner = Scanner::with_instructions(RangeSensor { n_rays: 360, max_range: 4.0 }, instructions);
+    let mut ranges = [0.0; 360];
+    // a rectangle of 32 m, through walls and doors: where it is in a wall there is no scan
+    let (width, height) = (10.0, 6.0);
+    let poses = (0_u32..).filter_map(|k| {
+        let way = (0.03 * f64::from(k)) % (2.0 * (width + height));
+        let (x, y, theta) = match way {
+            w if w < width => (w, 0.0, 0.1),
+            w if w < width + height => (width, w - width, 1.7),
+            w if w < 2.0 * width + height => (2.0 * width + height - w, height, -3.0),
+            w => (0.0, 2.0 * (width + height) - w, -1.4),
+        };
+        let pose = Pose2::new(1.0 + x, 1.0 + y, theta);
+        (!scene.intersects(&Footprint::disc(pose.position(), 0.11))).then_some(pose)
+    });
+    for pose in poses.take(times) {
+        scanner.scan_into(&scene, &[], &pose, &mut ranges);
+        black_box(&ranges);
+    }
+}
+
 fn arms(times: usize, ask: impl Fn(&Checker<Reach<2>>, &T2, &T2)) {
     let checker = Checker::new(worlds::boxes(100, 0.2), Reach::<2>::workbench());
     let mut s = worlds::draws("count");
@@ -58,6 +82,8 @@ fn main() {
     match kernel.as_str() {
         "scan-hall" => hall(Instructions::Baseline, times),
         "scan-yard" => yard(Instructions::Baseline, times),
+        "scan-apartment" => apartment(Instructions::Baseline, times),
+        "scan-apartment-avx2" => apartment(Instructions::Avx2, times),
         "scan-hall-avx2" => hall(Instructions::Avx2, times),
         "scan-yard-avx2" => yard(Instructions::Avx2, times),
         "disc" => discs(times),

@@ -91,7 +91,7 @@ fn a_scanner_allocates_nothing_after_its_first_scans() {
             scanner.scan_into(&scene, std::slice::from_ref(&other), &pose, &mut ranges);
         };
         // a small scene lists what is seen from where, after some scans from each square
-        (0..200).for_each(|k| scan(k % 50));
+        (0..400).for_each(|k| scan(k % 50));
         let counted = allocation_counter::measure(|| (1..50).for_each(&mut scan)).count_total;
         assert_eq!(counted, 0);
     }

@@ -30,7 +30,7 @@ fn a_motion_past_the_post_is_in_an_address_with_its_links() {
 }
 
 #[test]
-fn what_querys_robot_does_not_take_is_named_and_costs_nothing_else() {
+fn what_the_robot_of_query_does_not_take_is_named_and_costs_nothing_else() {
     let shown = |query: &str| {
         let mut scene = Anatomy::default();
         let refused = Link::parse(query).unwrap().anatomy.show_in(&mut scene);

@@ -13,7 +13,7 @@ use crate::random::{Seed, Stream};
 use crate::sensors::Scanner;
 
 /// More visits than a scene and a square need before the square's list is used.
-const ENOUGH: usize = 32;
+const ENOUGH: usize = 64;
 
 /// The segments that a scan from here is cast at, once it was visited often enough.
 fn listed(scene: &Scene, p: Point2, reach: f64) -> Vec<Segment> {
