@@ -144,7 +144,7 @@ async function open(file) {
 /** Saves the run for the page around, or not, and tells it. */
 function saveForPage(saved) {
   $("asked").hidden = true;
-  runName = /^[\w-]{1,40}$/.test(toSave.name) ? toSave.name : "run";
+  runName = typeof toSave.name === "string" && /^[\w-]{1,40}$/.test(toSave.name) ? toSave.name : "run";
   if (saved) send({ do: "save" });
   tellAll({ kind: "saved", saved, request: toSave.request });
 }

@@ -160,9 +160,7 @@ impl PageLens {
     /// The reason, where it has no such place.
     pub fn put(&mut self, coordinates: &[f64]) -> Result<(), JsError> {
         let mut scene = self.lens.anatomy().clone();
-        let thick = scene.thick_links() == Some(true);
-        let there = LinkedAnatomy { q: coordinates.to_vec(), thick, ..LinkedAnatomy::default() };
-        there.show_in(&mut scene).map_err(|why| JsError::new(&why))?;
+        LinkedAnatomy::put(&mut scene, coordinates).map_err(|why| JsError::new(&why))?;
         self.lens.set(|anatomy| *anatomy = scene);
         Ok(())
     }

@@ -36,7 +36,7 @@ impl LinkedAnatomy {
             scene.set_thick_links(self.thick);
         }
         let count = scene.q().coordinates().len();
-        let placed = if self.q.is_empty() { Ok(()) } else { put(scene, &self.q) };
+        let placed = if self.q.is_empty() { Ok(()) } else { Self::put(scene, &self.q) };
         let placed = placed.map_err(|why| format!("q: {why}"));
         if !self.step.is_empty() && self.step.len() != count {
             return placed.and(Err(format!("step: {}", count_of(count))));
@@ -44,16 +44,16 @@ impl LinkedAnatomy {
         self.step.iter().enumerate().for_each(|(i, step)| scene.set_step(i, *step));
         placed
     }
-}
 
-/// Puts a scene's robot at chart coordinates.
-///
-/// # Errors
-/// Why it has no such place.
-fn put(scene: &mut Anatomy, coordinates: &[f64]) -> Result<(), String> {
-    let q = scene.q();
-    let q = q.with_coordinates(coordinates).ok_or_else(|| count_of(q.coordinates().len()))?;
-    scene.set_q(q).map_err(|error| error.to_string())
+    /// Puts a scene's robot at chart coordinates.
+    ///
+    /// # Errors
+    /// Why it has no such place.
+    pub fn put(scene: &mut Anatomy, coordinates: &[f64]) -> Result<(), String> {
+        let q = scene.q();
+        let q = q.with_coordinates(coordinates).ok_or_else(|| count_of(q.coordinates().len()))?;
+        scene.set_q(q).map_err(|error| error.to_string())
+    }
 }
 
 fn count_of(coordinates: usize) -> String {

@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { join } from "node:path";
 import { after, before } from "node:test";
-import { begin, end, origin, shots } from "./harness.mjs";
-import { lab } from "./on_page.mjs";
+import { begin, end, native, origin, shots } from "./harness.mjs";
+import { download, lab } from "./on_page.mjs";
 
 let hosts = null;
 let body = "";
@@ -31,6 +31,25 @@ async function around(page, frames) {
 
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 const elsewhere = { wait: false };
+
+lab("a page of another origin can't save a run: its reader is asked", "/widgets.html", async ({ page }) => {
+  const [frame] = await around(page, [""]);
+  await frame.waitForFunction(() => window.received.state.tick > 20);
+  await page.evaluate(() => {
+    window.heard = [];
+    addEventListener("message", ({ data }) => window.heard.push(data.motionLab));
+    frames[0].postMessage({ motionLab: { do: "save", name: "mine", request: 1 } }, "*");
+  });
+  await frame.waitForSelector("#asked:not([hidden])");
+  assert.match(await frame.textContent("#urgent"), /asks to save this run/);
+  await page.screenshot({ path: join(shots, "asked.png") });
+  assert.equal(await page.evaluate(() => window.heard.some(({ kind }) => kind === "saved")), false);
+  const file = await download(page, () => frame.click("#asked-save"));
+  assert.equal(file.name, "mine.mcap");
+  assert.match(native("verify", file.path), /bit-identical/);
+  assert.equal(await frame.locator("#asked").isVisible(), false);
+  await page.waitForFunction(() => window.heard.some(({ kind, saved, request }) => kind === "saved" && saved && request === 1));
+}, elsewhere);
 
 lab("a swipe on a frame scrolls the page around it; a drag on a slider or on a drawing in use does not", "/widgets.html", async ({ page, context }) => {
   const [frame] = await around(page, ["?widget=anatomy"]);
