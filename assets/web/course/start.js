@@ -76,7 +76,7 @@ function go() {
   const wanted = asked();
   const was = open;
   open = wanted?.item ?? null;
-  [judged, far] = [open?.goal ? judge(open.goal) : null, null];
+  [judged, far, warned] = [open?.goal ? judge(open.goal) : null, null, ""];
   $("list").hidden = Boolean(wanted);
   $("work").hidden = !wanted;
   root.dataset.opens = wanted ? location.hash.slice(1).split("/")[0] : "list";
@@ -111,6 +111,7 @@ function tell(text, heard = text) {
 const byBook = new Map(items.filter(({ inBook }) => inBook).map((item) => [item.inBook, item.id]));
 const ask = (message) => $("place").querySelector("iframe").contentWindow.postMessage({ motionLab: message }, ORIGIN);
 let far = null; // what the run in the frame was last judged to be
+let warned = ""; // what is said of a run that was saved too early, until it is there
 const hear = {
   // an assignment's time runs once its reader has read it
   ready() {
@@ -131,7 +132,8 @@ const hear = {
     const found = judged?.(state);
     if (!found) return;
     far = found;
-    tell(found.text, found.isUnderWay ? "" : found.text);
+    if (found.isDone) warned = "";
+    tell(warned + found.text, found.isUnderWay ? warned : found.text);
     if (found.isDone) record.add(open.id, { given: `tick ${state.tick}` });
   },
 };
@@ -143,7 +145,9 @@ addEventListener("message", ({ source, origin, data }) => {
 
 $("save").addEventListener("click", () => {
   ask({ do: "save", name: open.id });
-  if (!far?.isDone && !record.has(open.id)) tell(`Saved as ${open.id}.mcap, but it is not there yet: as it is it would not pass.`);
+  const isThere = far?.isDone || record.has(open.id);
+  warned = isThere ? "" : `Saved as ${open.id}.mcap, but it is not there yet and would not pass. `;
+  tell(warned + (far?.text ?? ""), warned);
 });
 $("anew").addEventListener("click", go);
 addEventListener("hashchange", go);

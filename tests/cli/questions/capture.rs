@@ -210,6 +210,21 @@ fn what_is_said_of_the_arm_is_not_said_of_the_car() {
 }
 
 #[test]
+fn the_space_shows_a_motion_only_where_one_is_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("space.svg");
+    for (step, is_drawn) in [(None, false), (Some("--step=-90deg,0"), true)] {
+        let words = ["capture", "--widget", "cspace", "--robot", "choset", "--cells", "3", "-o", out.to_str().unwrap()];
+        run(&words.into_iter().chain(step).chain(["--force"]).collect::<Vec<_>>()).done();
+        let svg = fs::read_to_string(&out).unwrap();
+        // its line in the square, and the steps of its proof in the workspace
+        for id in ["id=\"configuration-space-of-Reach-line\"", "id=\"Workbench-step-2\""] {
+            assert_eq!(svg.contains(id), is_drawn, "{step:?}: {id}");
+        }
+    }
+}
+
+#[test]
 fn what_cannot_be_drawn_is_refused_and_no_file_is_left() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();

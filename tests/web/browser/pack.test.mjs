@@ -239,9 +239,13 @@ async function handIn(page, id, robot, world, to) {
   await says("^Off by .*; 1\\d\\d s are left\\.$");
   assert.equal(await outer.textContent("#task-said"), "", "who listens does not hear each second");
   assert.equal((await lab.evaluate(() => window.received.state.robots))[0].driven, true, "it stands until somebody drives it");
+  // who saves too early is told so, while the run goes on too
+  await download(page, () => outer.click("#save"));
+  await says(`^Saved as ${id}\\.mcap, but it is not there yet and would not pass\\. Off by .*; 1\\d\\d s are left\\.$`);
+  assert.match(await outer.textContent("#task-said"), /would not pass/);
   await send(lab, { do: "open", query: `widget=dashboard&world=${world}&script=${encodeURIComponent(planned(robot, world, to))}&tick=30` });
   await seen(lab, () => window.received.state.tick === 30);
-  await says("^Off by");
+  await says("Off by");
   await send(lab, { do: "seek", tick: 160 });
   await send(lab, { do: "play" });
   await says("^It is there, and stays");
