@@ -68,6 +68,8 @@ function show() {
   $("question").textContent = words.question;
   $("answer").textContent = words.answer;
   $("answer").toggleAttribute("data-touches", words.touches);
+  // a shorter answer does not pull the sliders from under a finger
+  $("answer").style.minHeight = `${$("answer").offsetHeight}px`;
   $("details").textContent = words.details.join("\n");
   for (const button of $("tabs").children) button.setAttribute("aria-pressed", String(button.textContent === words.tab));
   slide([...words.sliders.map((slider, i) => ({ ...slider, set: (value) => lens.set_coordinate(i, value) })), ...words.steps.map((slider, i) => ({ ...slider, set: (value) => lens.set_step(i, value) }))]);
@@ -303,6 +305,7 @@ function open(query) {
     }),
   );
   for (const id of ["sliders", "choices"]) $(id).replaceChildren();
+  $("answer").style.minHeight = "";
   if (lens.lesson()) tell({ kind: "lesson", id: lens.lesson(), done: false });
   refine();
   change();

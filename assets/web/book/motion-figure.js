@@ -102,8 +102,10 @@ function gate(isBehind) {
   element.addEventListener("focus", () => (isBehind ? stopAfter(front) : front.link).focus());
   return element;
 }
-// a window loses the keys to a frame in it
-for (const type of ["blur", "focus"]) addEventListener(type, () => setTimeout(() => [lab, lens].forEach((frame) => frame.open())));
+// a window loses the keys to a frame in it, and gets them back
+const openGates = () => [lab, lens].forEach((frame) => frame.open());
+// a browser may say so before it says which frame has them
+for (const type of ["blur", "focus"]) addEventListener(type, () => (openGates(), setTimeout(openGates)));
 
 const lab = new Frame("embed.html");
 const lens = new Frame("lens.html");
@@ -281,6 +283,7 @@ export class MotionFigure extends HTMLElement {
   /** Whether its reader has asked for all that the lab has, and whether the lab has come. */
   wantsAll = false;
   #whole = false;
+  #isByKeys = false; // whether its reader came in by Enter
 
   /** The frame that serves it. */
   get frame() {
@@ -319,6 +322,7 @@ export class MotionFigure extends HTMLElement {
   handleEvent(event) {
     if (event.metaKey || event.ctrlKey || event.shiftKey || !event.target.closest("a")) return; // a new tab is the reader's wish
     event.preventDefault();
+    this.#isByKeys = event.detail === 0;
     this.enter();
   }
 
@@ -331,6 +335,8 @@ export class MotionFigure extends HTMLElement {
 
   /** Its reader is in it. */
   takeIn() {
+    // pictures above it may have come meanwhile
+    if (this.#isByKeys) this.scrollIntoView({ block: "nearest" });
     focus(this);
     tell(this, { kind: "enter" });
   }

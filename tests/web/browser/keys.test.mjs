@@ -13,12 +13,14 @@ lab("who leaves a figure by Tab goes on in the text behind it, and backwards to 
   await seen(frame, () => window.received.state?.query);
   // the first stop behind the figure is the first word of its caption that lights a part of it
   await frame.focus("#whole");
+  await page.waitForSelector(".motion-figure-gate[tabindex='0']", { state: "attached" });
   await page.keyboard.press("Tab");
   await page.waitForFunction(() => document.activeElement.matches("#witness figcaption .role-robot"));
   // and from there the order goes on, past the frame at the page's end
   await page.keyboard.press("Tab");
   assert.equal(await page.evaluate(() => document.activeElement.textContent), "obstacles");
   await frame.focus(".lens-paper");
+  await page.waitForSelector(".motion-figure-gate[tabindex='0']", { state: "attached" });
   await page.keyboard.press("Shift+Tab");
   await page.waitForFunction(() => document.activeElement.closest("#witness motion-figure a"));
   // no stops are left at the page's end
@@ -39,6 +41,12 @@ lab("Enter on a figure of the lab gives its canvas the keys; Escape lets go of a
   assert.equal(await page.evaluate(() => document.activeElement.localName), "iframe", "it stays in the figure");
   await page.keyboard.press("Escape");
   await page.waitForFunction(() => document.activeElement.closest("#tour motion-figure a"));
+  // which is under the frame: the figure shows it, and says which one it is
+  assert.equal(await page.$eval("#tour motion-figure", (figure) => getComputedStyle(figure).outlineStyle), "solid");
+  const session = await page.context().newCDPSession(page);
+  const { nodes } = await session.send("Accessibility.getFullAXTree");
+  const name = nodes.find((node) => node.role?.value === "link" && node.properties?.some((p) => p.name === "focused" && p.value.value)).name.value;
+  assert.match(name, /Try it ?: Figure 7, /);
 }, { wait: false, timeout: 240000 });
 
 lab("a sentence that moves a figure says what the figure says, and a stage keeps Home and End", "/", async ({ page }) => {
