@@ -37,17 +37,17 @@ fn valgrind(share: u32) -> String {
 #[test]
 fn counts_within_the_margin_pass_and_beyond_it_fail() {
     let said = |o: &Output| String::from_utf8_lossy(&o.stderr).into_owned();
-    for share in [50, 100, 105] {
+    for share in [50, 100, 102] {
         let output = counted(&valgrind(share));
         assert!(output.status.success(), "{share} %: {}", said(&output));
         let lines = String::from_utf8_lossy(&output.stdout).into_owned();
         let kernels = lines.lines().filter(|line| line.contains(" instructions, kept ")).count();
-        // two of ten need AVX2
-        let right = if lines.contains("not counted here: scans with AVX2") { 8 } else { 10 };
+        // three of twelve need AVX2
+        let right = if lines.contains("not counted here: scans with AVX2") { 9 } else { 12 };
         assert_eq!(kernels, right, "a line for each kernel: {lines}");
     }
-    let worse = counted(&valgrind(106));
-    assert!(worse.status.code() == Some(1) && said(&worse).contains("edge takes over 5 % more"), "{}", said(&worse));
+    let worse = counted(&valgrind(103));
+    assert!(worse.status.code() == Some(1) && said(&worse).contains("edge takes over 2 % more"), "{}", said(&worse));
 }
 
 #[test]
