@@ -4,7 +4,7 @@ use motion_lab_core::configuration::Configuration;
 use motion_lab_sim::anatomy::{Anatomy, Tab};
 
 /// What Query shows of its usual robot; the configuration space shares the robot. What an address leaves out stays as
-/// it is.
+/// it is, but links are bare where anything else is said.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LinkedAnatomy {
     /// The question.

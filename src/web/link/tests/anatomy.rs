@@ -11,7 +11,7 @@ fn a_motion_past_the_post_is_in_an_address_with_its_links() {
     let mut scene = Anatomy::default();
     assert_eq!(link.anatomy.show_in(&mut scene), Ok(()));
     assert_eq!((scene.tab, scene.step(), scene.thick_links()), (Tab::Swept, &[1.1, 0.0][..], Some(true)));
-    // README's motion: links 5 cm thick meet the post in less than a third of the way
+    // README's motion: links with a radius of 3 cm meet the post in less than a third of the way
     let verdict = scene.sweep().unwrap().verdict;
     assert!(
         matches!(verdict, EdgeVerdict::Hit { contact_at, .. } if (0.28..0.29).contains(&contact_at)),
