@@ -100,7 +100,7 @@ impl Link {
 
     /// Refuses what no reader is to meet by a click: names that are sentences, and endless work.
     fn check(&self) -> Result<(), LinkError> {
-        self.worlds.iter().filter(|world| built_in_name(world).is_none()).try_for_each(names::check)?;
+        self.worlds.iter().filter(|world| world.built_in_name().is_none()).try_for_each(names::check)?;
         names::check_added(&self.script)?;
         work::check(&self.recipe())
     }
@@ -133,7 +133,7 @@ impl Link {
 
     /// The query with this script and inputs.
     fn with(&self, script: &Script, inputs: Option<&str>) -> String {
-        let names: Option<Vec<&str>> = self.worlds.iter().map(built_in_name).collect();
+        let names: Option<Vec<&str>> = self.worlds.iter().map(World::built_in_name).collect();
         let is_usual = self.sensor == TourConfig::default().sensor;
         let version = match inputs {
             _ if names.is_none() || !is_usual => LINK_VERSION_WITH_FILES,
@@ -214,11 +214,6 @@ impl Link {
         let config = TourConfig { worlds, ticks: self.tick.max(1), sensor: self.sensor };
         Recipe::new(config, (self.seed, self.script.clone()))
     }
-}
-
-/// The name by which a world is built in; `None` for any other, also a changed one.
-fn built_in_name(world: &World) -> Option<&'static str> {
-    World::built_in_names().into_iter().find(|name| World::built_in(name).as_ref() == Some(world))
 }
 
 /// The text of a world file without the blanks that begin its lines.

@@ -1,4 +1,4 @@
-//! The atlas's teleport in the run under way: a robot is put where the atlas has it, or a new run begins there.
+//! The teleport in the run under way: a robot is put where another widget has it.
 
 use bevy::prelude::*;
 
@@ -13,18 +13,16 @@ use motion_lab_sim::simulation::{RobotCommand, RobotKinds, Roster, RunCommand, S
 /// # Errors
 /// [`SessionError`] when no robot of the run has this name in a world of this name, or when it has no room there among
 /// the obstacles and the robots as they stand.
-pub fn put_robot(world: &mut World, of: &str, robot: &str, coordinates: &[f64]) -> Result<(), SessionError> {
+pub fn put_robot(world: &mut World, of: &str, robot: &str, coordinates: Vec<Quantized>) -> Result<(), SessionError> {
     let unknown = || SessionError::NoRobot(robot.to_owned());
     let standing = standing(world, of, robot).ok_or_else(unknown)?;
-    let quantized: Vec<Quantized> =
-        coordinates.iter().map(|c| Quantized::try_new(*c)).collect::<Option<_>>().ok_or_else(unknown)?;
-    let rounded: Vec<f64> = quantized.iter().map(|c| c.value()).collect();
+    let rounded: Vec<f64> = coordinates.iter().map(|c| c.value()).collect();
     let mut atlas = Atlas::new(standing).knowing(world.resource::<RobotKinds>().known());
     let index = atlas.robots().iter().position(|r| r.name == robot).ok_or_else(unknown)?;
     let wanted = atlas.robots()[index].q.with_coordinates(&rounded).ok_or_else(unknown)?;
     atlas.teleport(index, wanted).ok_or_else(unknown)?.map_err(SessionError::Refused)?;
     world.write_message(RunCommand::from(TransportCommand::Checkpoint));
-    let input = RobotInput::Teleport(quantized);
+    let input = RobotInput::Teleport(coordinates);
     world.write_message(RunCommand::from(RobotCommand { robot: robot.to_owned(), input }));
     Ok(())
 }

@@ -16,7 +16,7 @@ use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
 use super::why;
 use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, blend};
-use motion_lab_core::configuration::{Configuration as _, HitchCfg, RobotKind, Sizes};
+use motion_lab_core::configuration::{HitchCfg, RobotKind, Sizes};
 use motion_lab_core::geometry::{Footprint, Pose2, Segment};
 use motion_lab_core::picture::{Picture, world as picture_of};
 use motion_lab_core::robots::{AnyRobot, Robot};
@@ -279,12 +279,9 @@ pub fn carry_out(world: &mut World, commands: Vec<Command>) {
                 let notice = said_of(change_links(world, &robot, links));
                 world.resource_mut::<Interface>().0.say(notice);
             }
-            Command::Session(SessionCommand::PutRobot { robot }) => {
+            Command::Session(SessionCommand::PutRobot { world: of, robot, coordinates }) => {
                 background::stop(world);
-                let atlas = world.resource::<Interface>().0.atlas.atlas();
-                let (of, there) = (atlas.world().name.clone(), atlas.robots().iter().find(|r| r.name == robot));
-                let Some(coordinates) = there.map(|r| r.q.coordinates()) else { continue };
-                let done = put_robot(world, &of, &robot, &coordinates);
+                let done = put_robot(world, &of, &robot, coordinates);
                 let notice = match done {
                     Ok(()) => Notice { text: format!("{robot} is put there at the next tick"), is_error: false },
                     Err(error) => Notice { text: error.to_string(), is_error: true },

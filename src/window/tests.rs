@@ -7,6 +7,7 @@ mod crowd;
 mod cspace;
 mod doors;
 mod drive;
+mod in_front;
 mod own_kind;
 mod persistence;
 mod plan;

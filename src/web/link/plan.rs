@@ -48,8 +48,7 @@ impl LinkedPlan {
 
     /// The plan of a task in a built-in world, if an address can say it: of a resident with its own sizes.
     pub fn of(task: &Task, planner: PlannerName, seed: Seed) -> Option<Self> {
-        let world =
-            World::built_in_names().into_iter().find(|name| World::built_in(name).as_ref() == Some(&*task.world))?;
+        let world = task.world.built_in_name()?;
         let [from, to] = [&task.start, &task.goal].map(|q| q.coordinates().to_vec());
         let (robot, lies) = (task.name.clone(), task.noise.is_some());
         let plan = LinkedPlan { world, robot, from, to, planner: Some(planner), seed: Some(seed), lies };

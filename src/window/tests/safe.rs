@@ -226,6 +226,8 @@ fn refusals_are_read_whole_on_any_screen() {
         click(&mut harness, "Step");
         click(&mut harness, "put a trailer on");
         read_whole(&harness, "no room for a trailer: would overlap the west curb");
+        // the atlas shows the world in front
+        ui(&mut harness, |ui| ui.settings.world = 0);
         click(&mut harness, "Atlas");
         ui(&mut harness, |ui| ui.atlas.ask(motion_lab_core::geometry::Point2::new(6.0, 6.75), None, true));
         read_whole(&harness, "would overlap B's round table");

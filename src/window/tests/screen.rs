@@ -309,6 +309,7 @@ fn each_widget_ticks_off_its_own() {
     click_at(&mut harness, at);
     assert_eq!(done(&harness)[2..], ["MovePoint"]);
     click(&mut harness, "Atlas");
+    change(&mut harness, &|state| state.open_world(crate::window::ui::AtlasState::default()));
     assert_eq!(done(&harness).len(), 3);
     change(&mut harness, &|state| state.atlas.set_resolution(0.5));
     assert_eq!(done(&harness)[3..], ["Coarsen"]);

@@ -233,15 +233,23 @@ fn a_world_of_the_atlas_is_asked_about_in_the_anatomy() {
     harness.get_by_label("Add disc").click_accesskit();
     harness.run_steps(3);
     crate::window::desktop::files::save_world(harness.state_mut().app.world_mut(), &path);
+    let is_asked_about = |harness: &Harness<'_, Lab>| {
+        let anatomy = &interface(harness).anatomy.anatomy;
+        assert!(anatomy.world().obstacle("disc").is_some());
+        assert!(anatomy.copy_as_command().unwrap().contains("mine.ron"), "a command about the file");
+    };
     front(&mut harness, "Query");
+    is_asked_about(&harness);
+    // and by the list of worlds
+    click(&mut harness, "Reset");
+    assert!(interface(&harness).anatomy.anatomy.world().obstacle("disc").is_none());
     click(&mut harness, "Any robot, any world");
     harness.run_steps(20);
-    harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "world").click();
+    harness.get_by_role_and_label(egui::accesskit::Role::ComboBox, "world").click_accesskit();
     harness.run_steps(3);
-    click(&mut harness, "Apartment, in the atlas");
-    let anatomy = harness.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
-    assert!(anatomy.world().obstacle("disc").is_some());
-    assert!(anatomy.copy_as_command().unwrap().contains("mine.ron"), "a command about the file");
+    harness.get_by_label("Apartment, in the atlas").click_accesskit();
+    harness.run_steps(3);
+    is_asked_about(&harness);
 }
 
 #[test]

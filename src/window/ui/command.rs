@@ -1,6 +1,7 @@
 //! `Command` and `SessionCommand`, what widgets ask for.
 
 use super::capture_state::CaptureOrder;
+use motion_lab_sim::run::Quantized;
 use motion_lab_sim::simulation::{RobotCommand, RunCommand, TransportCommand};
 
 /// A request of a widget. Widgets change nothing but their own [`UiState`](super::UiState).
@@ -45,8 +46,8 @@ pub(crate) enum SessionCommand {
     RunWorld,
     /// A new run in the atlas's world, with its robots where the atlas has them.
     RunFromHere,
-    /// Put a robot of the run where the atlas has it.
-    PutRobot { robot: String },
+    /// Put a robot of the run at these chart coordinates.
+    PutRobot { world: String, robot: String, coordinates: Vec<Quantized> },
     /// A new run of the three robots, each in its world.
     ThreeRobots,
     /// A new run in which a robot plays the plan's path.

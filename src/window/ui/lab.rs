@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{CentralPanel, Frame, Margin, Panel, Ui, Vec2, vec2};
 
+use super::anatomy::in_front::hand_on;
 use super::dashboard::{self, hand::drive};
 use super::keys::{Action, Situation, pressed};
 use super::paint::button::LabButton;
@@ -181,7 +182,7 @@ fn rail(
     }
 }
 
-/// Puts a widget in front and lets go of the robot in hand. A run waits while the dashboard is not in front, and then
+/// Puts a widget in front, with the robot that was in front, and lets go of the robot in hand. A run waits while the dashboard is not in front, and then
 /// plays on if it did before.
 fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     if widget == Widget::Dashboard {
@@ -192,6 +193,7 @@ fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut
         state.played = true;
         commands.push(Command::from(TransportCommand::Pause));
     }
+    hand_on(widget, model, state);
     drive::let_go(state, commands);
     state.next_grasp = Some(Grasp::Leave);
     state.widget = widget;

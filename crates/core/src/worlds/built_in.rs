@@ -39,6 +39,11 @@ impl World {
         ["apartment", "workbench", "lot"]
     }
 
+    /// The name under which a world in all the same is built in; `None` if there is none.
+    pub fn built_in_name(&self) -> Option<&'static str> {
+        Self::built_in_names().into_iter().find(|name| Self::built_in(name).as_ref() == Some(self))
+    }
+
     /// The built-in world of this name, `None` when there is none.
     pub fn built_in(name: &str) -> Option<World> {
         match name {

@@ -5,7 +5,7 @@ use motion_lab_core::collision::{Checker, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, RobotKind};
 use motion_lab_core::cspace::{Slice, nearest_free};
 use motion_lab_core::geometry::Point2;
-use motion_lab_core::robots::{AnyRobot, HITCH, RUSTY, Reach};
+use motion_lab_core::robots::{AnyRobot, ConfigurationError, HITCH, RUSTY, Reach};
 use motion_lab_core::worlds::{Resident, World};
 
 impl Anatomy {
@@ -31,6 +31,11 @@ impl Anatomy {
     /// The first resident of this world that says its sizes and is the robot in the scene.
     pub fn resident(&self) -> Option<&Resident> {
         self.world().robots.iter().filter(|r| r.sizes.is_some()).find(|r| self.is_resident(r))
+    }
+
+    /// The first resident of this world that is the robot in the scene.
+    pub fn lives_as(&self) -> Option<&Resident> {
+        self.world().robots.iter().find(|resident| self.is_resident(resident))
     }
 
     /// Whether the robot in the scene is this resident, a car with its trailer or without.
@@ -70,7 +75,22 @@ impl Anatomy {
         let same_world = world == **self.world();
         let own = robot.like(&self.q()).filter(|q| same_world || q.is_angle(0));
         let q = own.or_else(|| resident(&world, &robot)).unwrap_or_else(|| middle(&world, &robot));
-        let Ok(mut put) = Anatomy::new(world, source, robot, q) else { return self.clone() };
+        self.of_robot(world, source, robot, q).unwrap_or_else(|_| self.clone())
+    }
+
+    /// The same question about a robot at `q` in a world. The motion of the swept tab stays where the robot has such
+    /// coordinates, and the radius of the links where it is the same arm.
+    ///
+    /// # Errors
+    /// [`ConfigurationError`] when `q` is not a configuration of the robot.
+    pub fn of_robot(
+        &self,
+        world: World,
+        source: WorldSource,
+        robot: AnyRobot,
+        q: AnyConfiguration,
+    ) -> Result<Anatomy, ConfigurationError> {
+        let mut put = Anatomy::new(world, source, robot, q)?;
         if put.step().len() == self.step().len() && put.q().is_angle(0) == self.q().is_angle(0) {
             (0..self.step().len()).for_each(|i| put.set_step(i, self.step()[i]));
         }
@@ -79,7 +99,7 @@ impl Anatomy {
             put.thickness = self.thickness;
         }
         (put.tab, put.show_annulus) = (self.tab, self.show_annulus);
-        put
+        Ok(put)
     }
 }
 

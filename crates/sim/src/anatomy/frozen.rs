@@ -42,6 +42,13 @@ pub enum WorldSource {
     Unsaved,
 }
 
+impl WorldSource {
+    /// The source of a world that is as one of the built-in ones; `None` for any other.
+    pub fn of(world: &World) -> Option<Self> {
+        world.built_in_name().map(WorldSource::BuiltIn)
+    }
+}
+
 /// A frozen scene, a robot in it, and one of the four questions.
 #[derive(Clone, Debug)]
 pub struct Anatomy {

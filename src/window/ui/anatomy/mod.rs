@@ -1,5 +1,6 @@
 //! Query anatomy in the window.
 
+pub(super) mod in_front;
 mod state;
 pub(crate) mod view;
 

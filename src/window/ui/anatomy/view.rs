@@ -6,6 +6,7 @@ use bevy_egui::egui::{
     ComboBox, DragValue, Id, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
 };
 
+use super::in_front::RobotInFront;
 use super::state::Guesses;
 use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
@@ -73,11 +74,17 @@ pub fn anatomy_view(
             }
             if ui.available_width() >= TWO {
                 let half = 0.5 * (ui.available_width() - 20.0);
-                two_columns(ui, half, |ui, i| if i == 0 { asked(ui, look, state) } else { more(ui, look, state) });
+                two_columns(ui, half, |ui, i| {
+                    if i == 0 {
+                        asked(ui, look, state);
+                    } else {
+                        more(ui, model, look, state, commands);
+                    }
+                });
             } else {
                 asked(ui, look, state);
                 next_hint(ui, words, look, state);
-                more(ui, look, state);
+                more(ui, model, look, state, commands);
             }
             crate::window::ui::menu::foot(ui, words, look, state);
         });
@@ -125,7 +132,7 @@ fn asked(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
 }
 
 /// Shows the close view, a guess, and what can be copied or chosen.
-fn more(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
+fn more(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     if !look.narrow {
         inset(ui, look, state);
     }
@@ -145,6 +152,7 @@ fn more(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
         if LabButton::new("Reset").show(ui, look).clicked() {
             state.anatomy = AnatomyState::default();
         }
+        RobotInFront::of_query(&state.anatomy.anatomy).put_in_run(ui, model, look, commands);
     });
     fold(ui, "Any robot, any world", false, |ui| any(ui, state));
 }

@@ -101,8 +101,7 @@ impl Default for AtlasState {
 impl AtlasState {
     /// The state for a world that is in no file.
     pub fn of(world: World) -> Self {
-        let built_in = World::built_in_names().into_iter().find(|n| World::built_in(n).as_ref() == Some(&world));
-        AtlasState { built_in, ..AtlasState::edited(Editor::new(world)) }
+        AtlasState { built_in: world.built_in_name(), ..AtlasState::edited(Editor::new(world)) }
     }
 
     /// The built-in world that it began as, by the name that `World::built_in` knows.
@@ -280,6 +279,21 @@ impl AtlasState {
     /// Forgets where a robot that is not yet put was wanted.
     pub fn forget_wanted(&mut self) {
         self.wanted = None;
+    }
+
+    /// Whether somebody chose this: another world than the first, an edit, or a place for a robot.
+    pub fn was_changed(&self) -> bool {
+        let is_first = self.built_in == World::built_in_names().first().copied();
+        !is_first || self.has_history() || self.atlas.robots() != self.starts.robots()
+    }
+
+    /// Puts the robot of this name at `q`, to be put on by clicks from there; where it has no room there it stays.
+    pub fn stand(&mut self, name: &str, q: AnyConfiguration) {
+        if let Some(index) = self.atlas.robots().iter().position(|robot| robot.name == name) {
+            _ = self.atlas.teleport(index, q);
+            self.robot = index;
+            (self.labels, self.refused) = (None, None);
+        }
     }
 
     /// Why the robot was not put where it was wanted, and whether a free place is offered.

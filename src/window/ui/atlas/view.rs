@@ -6,6 +6,7 @@ use bevy_egui::egui::{
 
 use super::panel::edit_panel;
 use super::state::{AtlasState, Mode};
+use crate::window::ui::anatomy::in_front::RobotInFront;
 use crate::window::ui::keys::{AtlasAction, SessionAction, keep_arrows};
 use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
@@ -13,7 +14,7 @@ use crate::window::ui::paint::frame::next_hint;
 use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
 use crate::window::ui::paint::sheet::{ScreenSheet, sheet, split};
 use crate::window::ui::paint::touch::worded;
-use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, SessionCommand, UiState};
+use crate::window::ui::{Command, Dashboard, FrameColours, SessionCommand, UiState};
 use motion_lab_core::picture::{Picture, ScreenPoint, Thing, pick, readout};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::manifest::{HintTask, Widget};
@@ -309,18 +310,10 @@ fn put_panel(ui: &mut Ui, state: &mut UiState) {
 /// the atlas; it is disabled unless the run has the robot in a world of this name. The second begins a run of this
 /// world with its robots where they stand.
 fn into_the_run(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &UiState, commands: &mut Vec<Command>) {
-    let atlas = state.atlas.atlas();
-    let Some(robot) = atlas.robots().get(state.atlas.robot) else { return };
-    let lives_there = |c: &Cockpit| c.world.name == atlas.world().name && c.has(&robot.name);
+    let Some(robot) = RobotInFront::of_atlas(&state.atlas) else { return };
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
-        let is_there = model.cockpits.iter().any(lives_there);
-        let button = LabButton::new("Put it there in the run").enabled(is_there).show(ui, look);
-        let words =
-            if is_there { "At the next tick; Ctrl+Z undoes it" } else { "It does not live in the run under way" };
-        if button.on_hover_text(words).clicked() {
-            commands.push(Command::Session(SessionCommand::PutRobot { robot: robot.name.clone() }));
-        }
+        robot.put_in_run(ui, model, look, commands);
         let button = LabButton::new("Run from here").show(ui, look);
         if button.on_hover_text("A new run of this world that begins with its robots where they are").clicked() {
             commands.push(Command::Session(SessionCommand::RunFromHere));

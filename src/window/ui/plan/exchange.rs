@@ -6,6 +6,7 @@ use super::panel::goal_for;
 use super::state::{PlanStage, PlanState};
 use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
+use motion_lab_core::planning::Effort;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::{self, Captured, PlanOutcome, PlanSheet};
@@ -65,6 +66,12 @@ impl PlanState {
         (self.work, self.stage) = (None, PlanStage::Read(name.to_owned(), judged));
         self.draw(drawn);
         Ok(())
+    }
+
+    /// Whether there is nothing to lose: no planner has begun, no goal was moved, and no file is shown.
+    pub fn is_idle(&self) -> bool {
+        let is_read = matches!(self.stage, PlanStage::Read(..));
+        !self.playing && !self.is_moved && !is_read && self.effort == Effort::default()
     }
 
     /// Shows the plan of a robot of this name in a world, from `start` to `goal`, or to a goal to begin with.

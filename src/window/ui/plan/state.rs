@@ -11,7 +11,6 @@ use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::picture::{Item, Picture, world as picture_of};
 use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
 use motion_lab_core::random::Seed;
-use motion_lab_core::worlds::World;
 use motion_lab_sim::capture::judged_words;
 use motion_lab_sim::lens::SpaceCells;
 use motion_lab_sim::manifest::HintTask;
@@ -90,9 +89,8 @@ impl PlanState {
     /// A task, with the planner that suits its robot.
     pub fn of(task: Task) -> Self {
         let drawn = nothing(&task);
-        let known = |name: &&str| World::built_in(name).as_ref() == Some(&*task.world);
         let mut state = PlanState {
-            known_as: World::built_in_names().into_iter().find(known),
+            known_as: task.world.built_in_name(),
             planner: PlannerName::default_for(&task.robot),
             planners: Planners::default(),
             seed: BOOK_SEED,
