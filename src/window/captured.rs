@@ -23,9 +23,9 @@ pub fn captured(state: &UiState, run: ShownRun, tick: u64, width_px: f64) -> Res
 /// The subject of a capture of the widget in front; `None` where the figure does not depend on the run.
 pub fn subject(state: &UiState, form: CaptureForm) -> Result<Option<Subject>, CaptureError> {
     let moves = form == CaptureForm::Gif;
-    let (names, scan) = (state.settings.labels, state.settings.scan);
+    let (names, scan, nearest) = (state.settings.labels, state.settings.scan, state.settings.nearest);
     Ok(match state.widget {
-        Widget::Dashboard => Some(Subject::Dashboard { names, scan }),
+        Widget::Dashboard => Some(Subject::Dashboard { names, scan, nearest }),
         Widget::Anatomy if moves => return Err(CaptureError::Frozen),
         Widget::Cspace if moves => {
             let anatomy = &state.anatomy.anatomy;

@@ -119,8 +119,8 @@ fn wake(shown: Res<ShownDashboard>, background: Res<Background>, mut settings: R
 /// Lets go of the robot that the pointer tows when the window loses the focus: the release may go to another window.
 fn let_go_of_tow(mut changes: MessageReader<WindowFocused>, mut interface: ResMut<Interface>) {
     let losses = changes.read().filter(|change| !change.focused).count();
-    if losses > 0 && interface.0.tow.is_some() {
-        interface.0.tow = None;
+    if losses > 0 && interface.0.hand.tow.is_some() {
+        interface.0.hand.tow = None;
     }
 }
 

@@ -7,7 +7,6 @@ mod crowd;
 mod cspace;
 mod doors;
 mod drive;
-mod in_front;
 mod own_kind;
 mod persistence;
 mod plan;
@@ -162,7 +161,7 @@ fn click_at(harness: &mut Harness<'_, Lab>, at: Pos2) {
 fn arm_rusty(harness: &mut Harness<'_, Lab>) {
     let at = paper(harness, "Apartment").left_top() + egui::vec2(20.0, 60.0);
     click_at(harness, at);
-    assert_eq!(harness.state().app.world().resource::<Interface>().0.armed.as_deref(), Some("Rusty"));
+    assert_eq!(harness.state().app.world().resource::<Interface>().0.hand.armed.as_deref(), Some("Rusty"));
 }
 
 fn pause(harness: &mut Harness<'_, Lab>) {

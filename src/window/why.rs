@@ -58,7 +58,7 @@ pub fn play_way_out(world: &mut World) {
     background::stop(world);
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
     let Some(way_out) = ui.chance.take().and_then(|chance| chance.way_out) else { return };
-    (ui.armed, ui.held) = (None, (0, 0));
+    (ui.hand.armed, ui.hand.held) = (None, (0, 0));
     match take_script(world, way_out.script, way_out.tick - 1) {
         Ok(()) => {
             world.resource_mut::<Transport>().playback = Playback::Playing;

@@ -166,7 +166,7 @@ fn a_report_shows_distributions_worst_runs_and_failures() {
     let failures = &page[page.find("Failures, the first").unwrap()..];
     assert_eq!(failures.matches("<tr><td>").count(), 20);
     assert!(failures.contains("reproduce 'all.parquet' --row 2 &amp;&amp; motion-lab open 2.mcap"));
-    assert!(failures.contains("<td>4</td>") && failures.contains("it could not be run"));
+    assert!(failures.contains("<td>4</td>") && failures.contains("there was no run"));
     let worst = &page[page.find("Worst runs").unwrap()..page.find("Failures, the first").unwrap()];
     let clearance = |line: &str| line.split("<td>").nth(9).and_then(|cell| cell.split('<').next()?.parse::<f64>().ok());
     let listed: Vec<f64> = worst.lines().filter(|line| line.starts_with("<tr><td>")).filter_map(clearance).collect();

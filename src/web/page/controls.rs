@@ -153,7 +153,7 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
                 found.ok_or_else(|| PageError::Role(name.to_owned()))
             };
             let role = role.as_deref().map(named).transpose()?;
-            ui(world, &|ui| ui.page_lit = role.map(|role| (ui.widget, role)))
+            ui(world, &|ui| ui.pointer.page_lit = role.map(|role| (ui.widget, role)))
         }
         Message::NotCopied => ui(world, &|ui| {
             let text = "not copied: the browser does not let the page copy".to_owned();
@@ -229,7 +229,7 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
         }
         Message::Stick { channels: (ahead, left) } => {
             let most = CHANNEL_UNITS as i16;
-            ui(world, &|ui| ui.stick = (ahead.clamp(-most, most), left.clamp(-most, most)))
+            ui(world, &|ui| ui.hand.stick = (ahead.clamp(-most, most), left.clamp(-most, most)))
         }
         Message::Figure { png } => {
             let svg = picture(world, FIGURE_WIDTH)?;
@@ -242,9 +242,9 @@ fn take(world: &mut World, message: Message) -> Result<Option<Value>, PageError>
             ui(world, &|ui| ui.settings.theme = choice)
         }
         Message::System { dark, reduced_motion, touch } => ui(world, &|ui| {
-            ui.system_theme = if dark { Theme::Dark } else { Theme::Light };
-            ui.system_reduced_motion = reduced_motion;
-            ui.is_touched |= touch;
+            ui.screen.system_theme = if dark { Theme::Dark } else { Theme::Light };
+            ui.screen.system_reduced_motion = reduced_motion;
+            ui.pointer.is_touched |= touch;
         }),
         Message::State => {
             world.resource_mut::<Sent>().forget();

@@ -128,7 +128,7 @@ fn start(world: &mut World) {
         wake_by(move || _ = proxy.send_event(WinitUserEvent::WakeUp));
     }
     let ui = &mut world.resource_mut::<Interface>().into_inner().0;
-    ui.embedded = embedded;
+    ui.screen.embedded = embedded;
     ui.settings = settings;
     show_address(world, link, RunBefore::Books);
 }

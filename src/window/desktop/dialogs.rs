@@ -141,7 +141,7 @@ pub fn ask(
         }
         transport.playback = Playback::Paused;
     }
-    interface.0.dialog = dialogs.are_open();
+    interface.0.focus.dialog = dialogs.are_open();
 }
 
 /// Opens what was dropped: a world in the atlas, a path in the plan, any other file as a run.
@@ -185,7 +185,7 @@ pub fn show(world: &mut World, ctx: &egui::Context) {
         ctx.request_repaint();
     }
     let are_open = world.resource::<Dialogs>().are_open();
-    world.resource_mut::<Interface>().0.dialog = are_open;
+    world.resource_mut::<Interface>().0.focus.dialog = are_open;
     let of_run = run.and_then(|(save, path)| if save { save_run(world, &path) } else { open_run(world, &path) });
     let of_world = model.map(|(save, path)| if save { save_world(world, &path) } else { open_world(world, &path) });
     let of_plan =

@@ -62,8 +62,8 @@ fn system_theme(windows: Query<&Window, Changed<Window>>, mut interface: ResMut<
             Some(WindowTheme::Dark) => Theme::Dark,
             _ => Theme::Light,
         };
-        if interface.0.system_theme != theme {
-            interface.0.system_theme = theme;
+        if interface.0.screen.system_theme != theme {
+            interface.0.screen.system_theme = theme;
         }
     }
 }

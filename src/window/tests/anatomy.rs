@@ -226,7 +226,7 @@ fn a_term_lights_what_the_picture_draws_of_it_and_a_part_of_the_picture_its_term
     let spoken =
         "The witnesses are a point a* of the robot and a point b* of the obstacles as far apart as the distance says.";
     harness.get_by_label(spoken);
-    let lit = |h: &Harness<'_, Lab>| interface(h).lit;
+    let lit = |h: &Harness<'_, Lab>| interface(h).pointer.lit;
     assert_eq!(lit(&harness), None);
     // by keyboard
     use Role::{Obstacle, Robot, Witness};
@@ -247,7 +247,7 @@ fn a_term_lights_what_the_picture_draws_of_it_and_a_part_of_the_picture_its_term
         let [x, y] = fit.screen_from_world(Point2::new(x, y));
         pointer(&mut harness, pos2(x as f32, y as f32), None);
         harness.run_steps(2);
-        assert_eq!(interface(&harness).over, over);
+        assert_eq!(interface(&harness).pointer.over, over);
     }
 }
 
@@ -259,18 +259,18 @@ fn nothing_is_pointed_at_once_another_widget_is_in_front() {
     let [x, y] = fit.screen_from_world(Point2::new(0.75, 1.25));
     pointer(&mut harness, pos2(x as f32, y as f32), None);
     harness.run_steps(2);
-    assert_eq!(interface(&harness).over, Some(Role::Obstacle));
+    assert_eq!(interface(&harness).pointer.over, Some(Role::Obstacle));
     for (widget, over) in [(Key::Num1, None), (Key::Num2, Some(Role::Obstacle)), (Key::Num3, None)] {
         harness.key_press_modifiers(Modifiers::COMMAND, widget);
         harness.run_steps(3);
-        assert_eq!(interface(&harness).over, over, "{widget:?}");
+        assert_eq!(interface(&harness).pointer.over, over, "{widget:?}");
     }
     // nor when the pointer has left the window
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Num2);
     harness.run_steps(3);
     harness.event(Event::PointerGone);
     harness.run_steps(3);
-    assert_eq!(interface(&harness).over, None);
+    assert_eq!(interface(&harness).pointer.over, None);
 }
 
 #[test]

@@ -115,7 +115,7 @@ fn a_click_picks_another_drives_and_a_drag_looks_elsewhere() {
     click_at(&mut harness, at);
     assert_eq!(picked(&harness), Some(robot.name.clone()));
     click_at(&mut harness, at);
-    let armed = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.armed.clone();
+    let armed = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.hand.armed.clone();
     assert_eq!(armed(&harness), Some(robot.name.clone()), "a second click takes it in hand");
     harness.key_down(Key::ArrowUp);
     harness.run_steps(6);

@@ -32,7 +32,11 @@ fn a_click_on_a_door_closes_it_and_its_link_opens_it_again() {
         click_at(&mut harness, at);
         let close = WorldChange::Close("door B".into());
         assert_eq!(changes(&harness), [WorldEvent { tick: tick + 1, world: "Apartment".into(), change: close }]);
-        assert_eq!(harness.state().app.world().resource::<Interface>().0.armed, None, "and takes no robot in hand");
+        assert_eq!(
+            harness.state().app.world().resource::<Interface>().0.hand.armed,
+            None,
+            "and takes no robot in hand"
+        );
         harness.get_by_label("comes with the next tick");
         harness.get_by_label("door B closes");
         assert!(harness.query_by_label("close door B").is_none());
@@ -54,7 +58,7 @@ fn a_click_on_a_door_closes_it_and_its_link_opens_it_again() {
         // a click elsewhere takes Rusty in hand as before
         let at = in_the_apartment(&harness, [6.0, 4.0]);
         click_at(&mut harness, at);
-        assert_eq!(harness.state().app.world().resource::<Interface>().0.armed.as_deref(), Some("Rusty"));
+        assert_eq!(harness.state().app.world().resource::<Interface>().0.hand.armed.as_deref(), Some("Rusty"));
     }
 }
 

@@ -43,7 +43,7 @@ fn shift_drives_a_quarter_as_fast() {
 fn a_stick_drives_the_robot_in_hand_and_rests_when_it_is_let_go() {
     let mut harness = lab(WIDE);
     let push = |harness: &mut Harness<'_, Lab>, channels| {
-        harness.state_mut().app.world_mut().resource_mut::<Interface>().0.stick = channels;
+        harness.state_mut().app.world_mut().resource_mut::<Interface>().0.hand.stick = channels;
         harness.run_steps(3);
     };
     push(&mut harness, (100, 0));
@@ -92,7 +92,7 @@ fn rusty_is_driven_into_a_wall_and_stops_a_radius_short_of_it() {
     harness.step();
     harness.key_press(Key::Escape);
     harness.run_steps(2);
-    assert_eq!(harness.state().app.world().resource::<Interface>().0.armed, None);
+    assert_eq!(harness.state().app.world().resource::<Interface>().0.hand.armed, None);
     assert!(harness.state().robot(0).manual, "letting go is not giving back");
     click(&mut harness, "resume tour");
     harness.run_steps(4);
@@ -235,7 +235,7 @@ fn on_a_phone_the_pad_covers_nothing_and_takes_its_robot_in_hand() {
     assert!(!pad.intersects(room) && !pad.intersects(inset) && pad.right() <= PHONE[0], "{pad} {room} {inset}");
     pointer(&mut harness, pad.center_top() + egui::vec2(0.0, 1.0), Some(true));
     harness.run_steps(6);
-    assert_eq!(interface(&harness).armed.as_deref(), Some("Rusty"));
+    assert_eq!(interface(&harness).hand.armed.as_deref(), Some("Rusty"));
     assert!(harness.state().robot(0).channels[0] > 120);
     assert_eq!(harness.get_by_label("Rusty: pad, up drives forward").rect(), pad, "it stays where it is");
     pointer(&mut harness, pad.center_top(), Some(false));
@@ -256,7 +256,7 @@ fn a_cockpit_comes_to_the_front_and_the_robot_in_hand_is_let_go() {
     bring(&mut harness, "Hitch");
     harness.key_up(Key::ArrowUp);
     harness.run_steps(4);
-    let armed = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.armed.clone();
+    let armed = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.hand.armed.clone();
     assert_eq!((armed(&harness), harness.state().robot(0).channels), (None, [0, 0]), "it does not drive on");
     assert!(paper(&harness, "Lot").width() > 500.0);
     // its key takes it in hand where it stands, at the front or not

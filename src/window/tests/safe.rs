@@ -14,7 +14,7 @@ fn ui(harness: &mut Harness<'_, Lab>, change: impl FnOnce(&mut crate::window::ui
 }
 
 fn lit(harness: &Harness<'_, Lab>) -> Option<Role> {
-    harness.state().app.world().resource::<Interface>().0.lit
+    harness.state().app.world().resource::<Interface>().0.pointer.lit
 }
 
 /// All words as painted, in this order: their text, where their ink is, and what of it the screen shows.
@@ -87,7 +87,7 @@ fn pointing_at_the_drawing_or_the_words_under_it_fades_nothing() {
 fn nothing_fades_while_a_robot_is_in_hand_a_drag_or_a_refusal_is_on() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
-    ui(&mut harness, |ui| ui.page_lit = Some((ui.widget, Role::Obstacle)));
+    ui(&mut harness, |ui| ui.pointer.page_lit = Some((ui.widget, Role::Obstacle)));
     harness.run_steps(10);
     assert_eq!(lit(&harness), Some(Role::Obstacle), "what the page points at");
     arm_rusty(&mut harness);
@@ -106,7 +106,7 @@ fn nothing_fades_while_a_robot_is_in_hand_a_drag_or_a_refusal_is_on() {
     click(&mut harness, "Atlas");
     harness.run_steps(10);
     assert_eq!(lit(&harness), None, "what a page lit in another widget");
-    ui(&mut harness, |ui| ui.page_lit = Some((ui.widget, Role::Obstacle)));
+    ui(&mut harness, |ui| ui.pointer.page_lit = Some((ui.widget, Role::Obstacle)));
     harness.run_steps(10);
     assert_eq!(lit(&harness), Some(Role::Obstacle));
     ui(&mut harness, |ui| ui.atlas.ask(motion_lab_core::geometry::Point2::new(6.0, 6.75), None, true));
@@ -226,7 +226,6 @@ fn refusals_are_read_whole_on_any_screen() {
         click(&mut harness, "Step");
         click(&mut harness, "put a trailer on");
         read_whole(&harness, "no room for a trailer: would overlap the west curb");
-        // the atlas shows the world in front
         ui(&mut harness, |ui| ui.settings.world = 0);
         click(&mut harness, "Atlas");
         ui(&mut harness, |ui| ui.atlas.ask(motion_lab_core::geometry::Point2::new(6.0, 6.75), None, true));
@@ -272,10 +271,10 @@ fn the_arm_says_how_it_is_driven_when_its_key_or_its_paper_is_pressed() {
     harness.key_press(Key::Num1);
     harness.run_steps(3);
     assert!(!says(&harness));
-    assert_eq!(harness.state().app.world().resource::<Interface>().0.armed.as_deref(), Some("Rusty"));
+    assert_eq!(harness.state().app.world().resource::<Interface>().0.hand.armed.as_deref(), Some("Rusty"));
     harness.key_press(Key::Num2);
     harness.run_steps(3);
-    assert!(says(&harness) && harness.state().app.world().resource::<Interface>().0.armed.is_none());
+    assert!(says(&harness) && harness.state().app.world().resource::<Interface>().0.hand.armed.is_none());
 }
 
 #[test]

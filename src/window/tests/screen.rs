@@ -37,7 +37,7 @@ fn the_colour_key_lights_its_role_and_the_list_of_keys_opens() {
     pause(&mut harness);
     harness.get_by_label("colour key: obstacle").focus();
     harness.run_steps(3);
-    let lit = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.lit;
+    let lit = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.pointer.lit;
     assert_eq!(lit(&harness), Some(motion_lab_core::picture::Role::Obstacle));
     harness.get_by_label("Menu").focus();
     harness.run_steps(12);
@@ -136,7 +136,7 @@ fn the_world_in_front_is_magnified_moved_and_fitted() {
     drag(&mut harness, egui::vec2(80.0, 0.0));
     let moved = magnified(&harness).1.unwrap().x - centre.unwrap().x;
     assert!((moved + 80.0 / (scale * zoom)).abs() < 0.2 * 80.0 / (scale * zoom), "{moved}");
-    assert_eq!(interface(&harness).armed, None, "a drag is no click");
+    assert_eq!(interface(&harness).hand.armed, None, "a drag is no click");
     click(&mut harness, "show the whole world");
     assert_eq!(magnified(&harness).0, 1.0);
     // by keys, and by a double click
@@ -156,7 +156,7 @@ fn the_world_in_front_is_magnified_moved_and_fitted() {
     });
     harness.run_steps(2);
     assert_eq!(magnified(&harness).0, 1.0, "a double click fits");
-    assert_eq!(interface(&harness).armed, None, "and takes nobody in hand");
+    assert_eq!(interface(&harness).hand.armed, None, "and takes nobody in hand");
 }
 
 #[test]
@@ -178,7 +178,7 @@ fn a_handle_off_the_magnified_paper_takes_no_click_beside_it() {
 #[test]
 fn an_embedded_lab_leaves_the_wheel_to_the_page() {
     let mut harness = lab(WIDE);
-    interface_mut(&mut harness).embedded = true;
+    interface_mut(&mut harness).screen.embedded = true;
     harness.run_steps(2);
     let at = paper(&harness, "Apartment").center();
     wheel(&mut harness, at, 240.0);
@@ -214,10 +214,10 @@ fn one_key_fills_the_window_with_the_world_in_front() {
     paper(&harness, "Workbench");
     keys(&mut harness, Key::Escape, 1);
     keys(&mut harness, Key::P, 1);
-    assert!(!interface(&harness).fills && interface(&harness).settings.plots);
+    assert!(!interface(&harness).screen.fills && interface(&harness).settings.plots);
     click(&mut harness, "Query");
     keys(&mut harness, Key::M, 1);
-    assert!(!interface(&harness).fills);
+    assert!(!interface(&harness).screen.fills);
 }
 
 #[test]
@@ -379,7 +379,7 @@ fn four_worlds_scroll_and_an_arm_that_scrolled_away_harms_nothing() {
     let tip = harness.get_by_label("Reach: tip, θ₂ in radians").rect();
     assert_eq!(tip.area(), 0.0, "nothing of the arm is seen: {tip:?} {after:?}");
     // what is in hand is in front: its world is magnified and fills the window
-    interface_mut(&mut harness).armed = Some("Hitch".into());
+    interface_mut(&mut harness).hand.armed = Some("Hitch".into());
     keys(&mut harness, Key::Plus, 1);
     let zoom = |name: &str| interface(&harness).cameras.get(name).map(|camera| camera.zoom);
     assert_eq!((zoom("Lot"), zoom("Apartment")), (Some(1.5), Some(1.0)));

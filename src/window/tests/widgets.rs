@@ -2,11 +2,13 @@
 
 mod fingers;
 mod focus;
+mod in_front;
 mod layout;
 mod lesson_ends;
 mod lessons;
 mod numbers;
 mod tasks_done;
+mod word_count;
 
 use super::*;
 use motion_lab_sim::manifest::Widget;

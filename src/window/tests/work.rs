@@ -87,7 +87,7 @@ fn no_key_reaches_the_lab_behind_a_dialog() {
         }
         assert_eq!((harness.state().transport(), harness.state().script().clone()), before, "{driven}");
         let ui = &harness.state().app.world().resource::<Interface>().0;
-        assert!(!ui.settings.plots && ui.armed.is_some() == (driven == "Rusty"));
+        assert!(!ui.settings.plots && ui.hand.armed.is_some() == (driven == "Rusty"));
         // with the dialog gone, the keys are the lab's again
         harness.get_by_label_contains("Cancel").click();
         harness.run_steps(4);
@@ -183,7 +183,7 @@ fn a_run_that_has_not_begun_is_refused_before_a_file_is_named() {
     assert_eq!(harness.state().transport().frontier, 0);
     harness.key_press_modifiers(Modifiers::COMMAND, Key::S);
     harness.run_steps(4);
-    assert!(harness.query_by_label("Save the run").is_none() && !interface(&harness).dialog);
+    assert!(harness.query_by_label("Save the run").is_none() && !interface(&harness).focus.dialog);
     harness.get_by_label("nothing has been run yet; press Play first");
     // after a tick there is something to save
     click(&mut harness, "Step");
@@ -254,7 +254,7 @@ fn closing_asks_where_edits_would_be_lost() {
     harness.run_steps(2);
     click(&mut harness, "Keep the window");
     assert!(harness.query_by_label("Close without saving?").is_none());
-    assert!(harness.state().app.world().resource::<Interface>().0.armed.is_none(), "keys were the question's");
+    assert!(harness.state().app.world().resource::<Interface>().0.hand.armed.is_none(), "keys were the question's");
     assert_eq!(closing(&mut harness), None);
     // saving asks for a file of that world, and keeps the window
     let mut asked = harness.state().app.world().resource::<Messages<SessionCommand>>().get_cursor_current();

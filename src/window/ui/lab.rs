@@ -34,15 +34,15 @@ const RAIL: f32 = 76.0;
 /// Shows the lab over the whole of `ui`; what is pressed is pushed onto `commands`.
 pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiState, commands: &mut Vec<Command>) {
     let size = ui.max_rect().size();
-    state.is_touched |= ui.input(|i| i.any_touches());
+    state.pointer.is_touched |= ui.input(|i| i.any_touches());
     // whatever brought the dashboard to the front, no run waits there
     state.played &= state.widget != Widget::Dashboard;
-    let low = size.y < if state.is_touched { LOW_FOR_FINGERS } else { LOW } && size.x > size.y;
+    let low = size.y < if state.pointer.is_touched { LOW_FOR_FINGERS } else { LOW } && size.x > size.y;
     let narrow = size.x < NARROW || low;
-    state.is_narrow = narrow;
+    state.screen.is_narrow = narrow;
     let look = FrameColours::of(ui, state, narrow, low);
     // where there is no height to spare, controls are as small as a mouse allows
-    let mut style = look.theme.style(narrow && !low || state.is_touched);
+    let mut style = look.theme.style(narrow && !low || state.pointer.is_touched);
     if state.has_reduced_motion() {
         style.animation_time = 0.0;
     }
@@ -54,25 +54,25 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     ui.set_style(style);
     // a press is dated by the frame before it, which while nothing moves may be long ago: none is too long for a click
     ui.ctx().options_mut(|options| options.input_options.max_click_duration = f64::INFINITY);
-    if state.dialog {
+    if state.focus.dialog {
         // nothing behind a dialog keeps the focus, and with it the keys
         ui.disable();
     }
     let now = Situation {
-        armed: state.armed.is_some(),
-        nudged: state.nudged.is_some(),
+        armed: state.hand.armed.is_some(),
+        nudged: state.focus.nudged.is_some(),
         atlas: state.widget == Widget::Atlas,
-        paper: std::mem::take(&mut state.paper),
-        typing: state.typing,
+        paper: std::mem::take(&mut state.focus.paper),
+        typing: state.focus.typing,
     };
     let actions = if state.is_covered() { vec![] } else { pressed(ui, now) };
     for action in actions {
         carry_out(action, model, state, commands);
     }
     lesson::make_ready(model, state, commands);
-    state.nudged = None;
+    state.focus.nudged = None;
     // a picture in front says anew what of it is pointed at
-    state.over = None;
+    state.pointer.over = None;
     if state.widget != Widget::Atlas {
         state.atlas.put_down();
     }
@@ -80,11 +80,11 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         // Space moves the same robot
         state.anatomy.pressed = None;
     }
-    state.grasp = state.next_grasp.take();
+    state.focus.grasp = state.focus.next_grasp.take();
     // no fill: the window is cleared to the paper's colour already, and a fill would cost as much as all that is drawn
     let margin = Margin::symmetric(if narrow && !low { 8 } else { 6 }, if narrow { 4 } else { 14 });
-    state.fills &= !model.cockpits.is_empty();
-    if state.embedded || state.fills && state.widget == Widget::Dashboard {
+    state.screen.fills &= !model.cockpits.is_empty();
+    if state.screen.embedded || state.screen.fills && state.widget == Widget::Dashboard {
         // the page chose the widget, or the picture has all the room
     } else if narrow && !low {
         Panel::top("rail").frame(Frame::NONE.inner_margin(margin)).show_separator_line(false).show(ui, |ui| {
@@ -103,7 +103,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     let stage = if state.widget == Widget::Dashboard {
         if !state.is_covered() {
             drive::drive(ui, model, state, commands);
-        } else if state.tow.is_some() {
+        } else if state.hand.tow.is_some() {
             drive::let_go(state, commands);
         }
         dashboard::twins::go_on(model, state, commands);
@@ -129,8 +129,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
     super::closing::closing(ui.ctx(), &look, state, commands);
     focus_ring(ui.ctx(), &look);
-    state.typing = ui.ctx().text_edit_focused();
-    if state.pointed.is_some() || state.lit.is_some() {
+    state.focus.typing = ui.ctx().text_edit_focused();
+    if state.pointer.pointed.is_some() || state.pointer.lit.is_some() {
         // the fade goes on without further input
         ui.ctx().request_repaint();
     }
@@ -182,8 +182,8 @@ fn rail(
     }
 }
 
-/// Puts a widget in front, with the robot that was in front, and lets go of the robot in hand. A run waits while the dashboard is not in front, and then
-/// plays on if it did before.
+/// Puts a widget in front, with the robot that was in front, and lets go of the robot in hand. A run waits while the
+/// dashboard is not in front, and then plays on if it did before.
 fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     if widget == Widget::Dashboard {
         if std::mem::take(&mut state.played) && !model.playing {
@@ -195,6 +195,6 @@ fn choose(widget: Widget, model: &Dashboard, state: &mut UiState, commands: &mut
     }
     hand_on(widget, model, state);
     drive::let_go(state, commands);
-    state.next_grasp = Some(Grasp::Leave);
+    state.focus.next_grasp = Some(Grasp::Leave);
     state.widget = widget;
 }

@@ -27,7 +27,7 @@ pub fn make_ready(model: &Dashboard, state: &mut UiState, commands: &mut Vec<Com
     let start = under_way.start.take();
     let lesson = under_way.lesson;
     let Lesson { task, widget } = lesson;
-    state.fills = false;
+    state.screen.fills = false;
     drive::let_go(state, commands);
     if widget != Widget::Dashboard && model.playing {
         state.played = true;

@@ -30,12 +30,17 @@ pub fn act(action: SessionAction, model: &Dashboard, state: &mut UiState, comman
         SessionAction::Open => commands.push(Command::Session(SessionCommand::Open)),
         SessionAction::Capture => state.ask_for_capture(model),
         // neither plots nor hints are seen beside a picture that fills the window
-        SessionAction::Plots => settings.plots = in_dashboard && std::mem::take(&mut state.fills) || !settings.plots,
+        SessionAction::Plots => {
+            settings.plots = in_dashboard && std::mem::take(&mut state.screen.fills) || !settings.plots
+        }
         SessionAction::Labels => settings.labels = !settings.labels,
         SessionAction::Scan => settings.scan = !settings.scan,
-        SessionAction::Hints if in_dashboard && std::mem::take(&mut state.fills) => settings.show_hints(state.widget),
+        SessionAction::Nearest => settings.nearest = !settings.nearest,
+        SessionAction::Hints if in_dashboard && std::mem::take(&mut state.screen.fills) => {
+            settings.show_hints(state.widget)
+        }
         SessionAction::Hints => settings.toggle_hints(state.widget),
-        SessionAction::Fill => state.fills = in_dashboard && !state.fills,
+        SessionAction::Fill => state.screen.fills = in_dashboard && !state.screen.fills,
         SessionAction::Theme => settings.theme = settings.theme.next(),
         SessionAction::Help => state.help = !state.help,
     }

@@ -14,6 +14,8 @@ pub struct Settings {
     pub labels: bool,
     /// Whether the range sensor's scan is drawn.
     pub scan: bool,
+    /// Whether the nearest points are drawn.
+    pub nearest: bool,
     /// Whether the plots are open.
     pub plots: bool,
     /// Index of the world in front.
@@ -74,6 +76,7 @@ impl Default for Settings {
             theme: ThemeChoice::System,
             labels: false,
             scan: false,
+            nearest: false,
             plots: false,
             world: 0,
             side_by_side: false,

@@ -2,6 +2,10 @@
 
 use std::fs;
 
+use motion_lab::planning::Progress;
+use motion_lab::prelude::*;
+use motion_lab::robots::RUSTY;
+
 use super::{folder_with, interrupted, names};
 use crate::cli::{json, run_in};
 
@@ -35,7 +39,7 @@ fn a_row_is_the_path_that_plan_finds_and_the_run_that_its_script_drives() {
     let folder = folder_with(PLAN);
     let at = folder.path();
     let swept = run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
-    assert!(swept.contains("24 runs, 24 of them made now; 18 failed, of which 18 could not be run"), "{swept}");
+    assert!(swept.contains("24 runs, 24 of them made now; 18 failed, of which 18 without a run"), "{swept}");
     run_in(at, &["sweep", "merge", "parts", "-o", "all.csv", "-o", "all.parquet"]).done();
     let table = fs::read_to_string(at.join("all.csv")).unwrap();
     let rows = rows(&table);
@@ -239,6 +243,48 @@ fn a_planner_at_work_is_stopped() {
     });
     assert_eq!(stopped.code, Some(75), "{}", stopped.err);
     assert!(stopped.err.contains("stopped with 0 of 1 row done\nThe same command goes on."), "{}", stopped.err);
+}
+
+/// Walks by a sensor with this noise, from the start and to the goal of the study below.
+fn walked(sigma_hit: f64, seed: u64) -> (u64, f64) {
+    use motion_lab::configuration::AnyConfiguration;
+    use motion_lab::plans::{PlannerName, Task};
+    use motion_lab::robots::AnyRobot;
+    use motion_lab::worlds::{BeamModel, World};
+    let [start, goal] =
+        [[3.0, 6.25, 0.0], [9.75, 6.25, 0.0]].map(|[x, y, theta]| AnyConfiguration::Pose(Pose2::new(x, y, theta)));
+    let task = Task::new("Rusty", AnyRobot::Rusty(RUSTY), World::apartment(), [start, goal]);
+    let task = Task { noise: Some(BeamModel { sigma_hit, ..BeamModel::EXACT }), ..task };
+    let mut attempt = task.attempt(PlannerName::Bug1Sensor, Seed(seed)).unwrap();
+    while attempt.step() == Progress::Growing {}
+    (attempt.effort().iterations, attempt.lengths().length)
+}
+
+#[test]
+fn a_planner_that_walks_by_its_sensor_reads_the_noise_of_its_robot() {
+    let folder = folder_with(
+        "Sweep(version: 1, worlds: [\"apartment\"], robots: [\"Rusty\"], planner: (name: \"bug1-sensor\"),
+            goal: (robot: \"Rusty\", at: [9.75, 6.25, 0], within: [0.5, 0.5, 3.2]),
+            axes: [(vary: \"Rusty.start\", over: Starts([[3, 6.25, 0]])),
+                (vary: \"Rusty.noise.sigma_hit\", over: Values([0, 0.1])), (vary: \"seed\", over: Range(0, 2))])",
+    );
+    let at = folder.path();
+    run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
+    run_in(at, &["sweep", "merge", "parts", "-o", "all.csv"]).done();
+    let text = fs::read_to_string(at.join("all.csv")).unwrap();
+    let table = rows(&text);
+    let mut lengths = Vec::new();
+    for (row, (sigma_hit, seed)) in table.iter().zip([(0.0, 0), (0.0, 1), (0.1, 0), (0.1, 1)]) {
+        let (iterations, length) = walked(sigma_hit, seed);
+        assert_eq!(
+            (row("iterations"), row("planned_path_m")),
+            (iterations.to_string(), length.to_string()),
+            "{sigma_hit}"
+        );
+        lengths.push(length);
+    }
+    // an exact sensor knows no seed, and noise changes the way
+    assert!(lengths.len() == 4 && lengths[0] == lengths[1] && lengths[2] != lengths[0], "{lengths:?}");
 }
 
 #[test]

@@ -139,7 +139,7 @@ fn a_goal_that_lies_in_one_of_the_worlds_is_refused_in_the_rows_of_the_other() {
     }
     let ran = run_in(folder.path(), &["sweep", "plan.ron", "-o", "parts"]).done();
     // nobody drives to the other goal
-    assert!(ran.contains("2 failed, of which 1 could not be run"), "{ran}");
+    assert!(ran.contains("2 failed, of which 1 without a run"), "{ran}");
     run_in(folder.path(), &["sweep", "merge", "parts", "-o", "all.csv"]).done();
     let table = fs::read_to_string(folder.path().join("all.csv")).unwrap();
     let rows: Vec<&str> = table.lines().skip(1).collect();

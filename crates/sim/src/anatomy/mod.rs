@@ -34,6 +34,7 @@ pub use contact::{held_before, touching_items};
 pub use feature::Feature;
 pub use frozen::{Anatomy, LENGTHS, THICK_LINKS, Tab, WorldSource};
 pub use nearest::{NearestPair, TIE, nearest_pairs};
+pub use picture::nearest_items;
 pub use prompt::{Guess, NoGuess, Prompt, PromptSeries};
 pub use sweep::SweptMotion;
 pub use twin::{both_configurations, contact_items, in_the_way, straight_way, twin, twin_items};

@@ -1,5 +1,6 @@
 //! The anatomy as a picture: the world, the robot and the tab's answer.
 
+use super::nearest::nearest_pairs;
 use super::words::{figure, metres};
 use super::{Anatomy, Feature, NearestPair, SweptMotion, Tab};
 use motion_lab_core::collision::{Collision, EdgeVerdict, Scene};
@@ -191,6 +192,14 @@ pub(crate) fn annulus_items(anatomy: &Anatomy) -> Vec<Item> {
 fn contact_item(pair: &NearestPair) -> Item {
     let cross = Drawing::Mark { at: pair.witness.on_obstacle, glyph: Glyph::Cross, radius_px: 5.0 };
     Item::new("contact", "a point in common", Role::Goal, cross)
+}
+
+/// What is nearest to a footprint: each pair of nearest points with the segment between them, and the edge on which it
+/// ends. Nothing where it touches, and where nothing is there.
+pub fn nearest_items(scene: &Scene, footprint: &Footprint) -> Vec<Item> {
+    let pairs = nearest_pairs(scene, footprint);
+    let apart = (1..).zip(&pairs).filter(|(_, pair)| pair.witness.dist > 0.0);
+    apart.flat_map(|(number, pair)| witness_items(number, pair, true)).collect()
 }
 
 /// The segment between two nearest points and its rings, each of the role of what it lies on; with `feature` also the

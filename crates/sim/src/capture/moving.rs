@@ -6,12 +6,14 @@ use bevy::app::App;
 
 use super::space::RobotSpace;
 use super::{CaptureError, Captured, Note};
+use crate::anatomy::nearest_items;
 use crate::atlas::{Atlas, names};
 use crate::manifest::Widget;
 use crate::recording::{Recorder, Run};
 use crate::run::{DT, Log};
 use crate::simulation::{RobotView, SensorView};
 use crate::tour::TourConfig;
+use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::geometry::Shape;
 use motion_lab_core::picture::{
@@ -33,6 +35,8 @@ pub enum Subject {
         names: bool,
         /// Whether the scans are drawn.
         scan: bool,
+        /// Whether what is nearest to each robot is drawn.
+        nearest: bool,
     },
     /// A robot's workspace, and beside it its configuration space with its path since tick 0; both with the world as it
     /// stands, doors open or closed and obstacles where they are.
@@ -80,7 +84,7 @@ impl Subject {
     /// The same without names, which leaves the text under the pictures as it is.
     pub(super) fn unnamed(&self) -> Subject {
         match self.clone() {
-            Subject::Dashboard { scan, .. } => Subject::Dashboard { names: false, scan },
+            Subject::Dashboard { scan, nearest, .. } => Subject::Dashboard { names: false, scan, nearest },
             Subject::Atlas { world, .. } => Subject::Atlas { world, names: false },
             space => space,
         }
@@ -202,6 +206,12 @@ impl Backdrop {
             self.world = Arc::new(draw_world(now));
             self.standing = Some(Arc::clone(now));
         }
+    }
+
+    /// What of the world is nearest to each of these robots.
+    fn nearest(&self, robots: &[&RobotView]) -> Vec<Item> {
+        let Some(scene) = self.standing.as_ref().map(|world| Scene::of_world(world)) else { return Vec::new() };
+        robots.iter().flat_map(|robot| nearest_items(&scene, &robot.footprint)).collect()
     }
 }
 
@@ -325,6 +335,9 @@ impl<'a> Moving<'a> {
         let mut picture = (**world).clone().with(backdrop.names.iter().cloned());
         if let Subject::Dashboard { scan: true, .. } = self.subject {
             picture = picture.with(seen(run, &residents));
+        }
+        if let Subject::Dashboard { nearest: true, .. } = self.subject {
+            picture = picture.with(backdrop.nearest(&residents));
         }
         Panel { heading, readout, picture: picture.with(residents.iter().flat_map(|v| drawing(v))) }
     }

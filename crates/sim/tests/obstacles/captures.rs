@@ -72,7 +72,9 @@ fn workspace_and_configuration_space_are_those_of_the_world_as_it_stands() {
 #[test]
 fn cockpits_and_atlas_show_obstacles_where_they_are() {
     let log = log();
-    for subject in [Subject::Dashboard { names: false, scan: false }, Subject::Atlas { world: None, names: false }] {
+    for subject in
+        [Subject::Dashboard { names: false, scan: false, nearest: false }, Subject::Atlas { world: None, names: false }]
+    {
         for tick in 0..=9 {
             let world = motion_lab_core::picture::world(&after(tick));
             let [panel] = &panels(&log, &subject, tick)[..] else { panic!("one world") };

@@ -155,7 +155,7 @@ fn a_new_obstacle_stands_where_the_script_puts_it() {
 #[test]
 fn a_capture_shows_the_doors_as_they_stand() {
     let log = Run::record(apartment(6), (Seed(3), changes(&[(2, close()), (5, open())]))).unwrap();
-    let subject = motion_lab_sim::capture::Subject::Dashboard { names: false, scan: false };
+    let subject = motion_lab_sim::capture::Subject::Dashboard { names: false, scan: false, nearest: false };
     for (tick, is_open) in [(1, true), (2, false), (4, false), (5, true)] {
         let captured = motion_lab_sim::capture::at_tick(&log, &subject, tick, 640.0).unwrap();
         let items = &captured.figure.panels[0].picture.items;

@@ -240,7 +240,7 @@ fn a_log_with_a_kind_of_ones_own_verifies_and_is_drawn_by_the_library() {
     assert_ne!(svg, run_svg(&log, 40, Theme::Light, with_pucks).unwrap());
     assert!(matches!(run_svg(&log, 81, Theme::Light, with_pucks), Err(CaptureError::NoTick { tick: 81, last: 80 })));
     assert!(matches!(run_svg(&log, 80, Theme::Light, |_| {}), Err(CaptureError::Run(_))));
-    let subject = Subject::Dashboard { names: false, scan: false };
+    let subject = Subject::Dashboard { names: false, scan: false, nearest: false };
     let captured = at_tick_with_robots(&log, &subject, 30, 640.0, with_pucks, |_| {}).unwrap();
     assert!(captured.figure.panels[0].picture.items.iter().any(|item| item.name == "puck"));
 

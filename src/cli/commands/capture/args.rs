@@ -79,6 +79,9 @@ pub struct RunArgs {
     /// Dashboard: what the range sensors see.
     #[arg(long)]
     pub(super) scan: bool,
+    /// Dashboard: what is nearest to each robot.
+    #[arg(long)]
+    pub(super) nearest: bool,
 }
 
 impl RunArgs {

@@ -82,7 +82,7 @@ impl Capture {
         let (run, scene) = (&self.run, &self.scene);
         let runs: &[Widget] = &[Dashboard, Atlas, Cspace];
         let with_plan = "dashboard, atlas, cspace and plan";
-        let options: [(&str, bool, &[Widget], &str); 18] = [
+        let options: [(&str, bool, &[Widget], &str); 19] = [
             ("--run", run.run.is_some(), runs, "dashboard, atlas and cspace"),
             ("--seed", run.seed.is_some(), &[Dashboard, Atlas, Cspace, Plan], with_plan),
             ("--tick", run.tick.is_some(), runs, "dashboard, atlas and cspace"),
@@ -91,6 +91,7 @@ impl Capture {
             ("--every", run.every.is_some(), runs, "dashboard, atlas and cspace"),
             ("--names", run.names, &[Dashboard, Atlas], "dashboard and atlas"),
             ("--scan", run.scan, &[Dashboard], "the dashboard"),
+            ("--nearest", run.nearest, &[Dashboard], "the dashboard"),
             ("--tab", scene.tab.is_some(), &[Anatomy], "the anatomy"),
             ("--robot", scene.robot.is_some(), &[Anatomy, Cspace, Plan], "anatomy, cspace and plan"),
             ("--q", scene.q.is_some(), &[Anatomy, Cspace, Plan], "anatomy, cspace and plan"),

@@ -57,7 +57,7 @@ impl Capture {
             }
             Widget::Atlas => Subject::Atlas { world, names: self.run.names },
             Widget::Dashboard | Widget::Anatomy | Widget::Plan => {
-                Subject::Dashboard { names: self.run.names, scan: self.run.scan }
+                Subject::Dashboard { names: self.run.names, scan: self.run.scan, nearest: self.run.nearest }
             }
         })
     }

@@ -115,5 +115,7 @@ fn task(world: &World, planning: &Planning) -> Result<(Task, PlannerName), Strin
         None => PlannerName::default_for(&robot),
     };
     let task = Task::new(resident.name.as_str(), robot, world.clone(), [start, goal]);
-    Ok((Task { tube: planning.tube, clearance: planning.clearance, ..task }, name))
+    // whoever walks by its sensor reads what the resident's sensor reads
+    let noise = resident.sensor;
+    Ok((Task { tube: planning.tube, clearance: planning.clearance, noise, ..task }, name))
 }

@@ -101,7 +101,7 @@ pub fn run(
     let made = count - before;
     let failed = match failures {
         0 => "none failed".to_owned(),
-        _ => format!("{failures} failed, of which {without_run} could not be run"),
+        _ => format!("{failures} failed, of which {without_run} without a run"),
     };
     data.line(format!("{}, {made} of them made now; {failed}", counted(count, "run")))?;
     if shard == Shard::WHOLE {

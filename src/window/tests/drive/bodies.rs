@@ -105,7 +105,7 @@ fn two_fingers_over_a_body_magnify_and_put_it_nowhere() {
     let mut harness = lab(WIDE);
     pause(&mut harness);
     // controls grow with the first finger, before any body is where it stays
-    interface_mut(&mut harness).is_touched = true;
+    interface_mut(&mut harness).pointer.is_touched = true;
     harness.run_steps(4);
     let body = harness.get_by_label("Rusty: its body, to be dragged").rect().center();
     let touch = |harness: &mut Harness<'_, Lab>, finger: u64, phase, at: Pos2| {
@@ -151,10 +151,10 @@ fn a_door_beside_a_rover_takes_its_click() {
     click_at(&mut harness, at_door);
     let closed = |h: &Harness<'_, Lab>| h.state().script().changes.iter().map(|change| change.change.clone()).collect();
     let close = motion_lab_sim::run::WorldChange::Close("door B".into());
-    assert_eq!((closed(&harness), interface(&harness).armed.clone()), (vec![close.clone()], None));
+    assert_eq!((closed(&harness), interface(&harness).hand.armed.clone()), (vec![close.clone()], None));
     click_at(&mut harness, on_body);
     let changes: Vec<_> = closed(&harness);
-    assert_eq!((changes.len(), interface(&harness).armed.as_deref()), (1, Some("Rusty")), "the body is its own");
+    assert_eq!((changes.len(), interface(&harness).hand.armed.as_deref()), (1, Some("Rusty")), "the body is its own");
 }
 
 #[test]
@@ -224,7 +224,7 @@ fn where_two_robots_share_a_world_a_click_takes_the_one_under_it() {
     for name in ["Rusty", "Second"] {
         harness.get_by_label(name);
     }
-    let armed = |harness: &Harness<'_, Lab>| interface(harness).armed.clone();
+    let armed = |harness: &Harness<'_, Lab>| interface(harness).hand.armed.clone();
     let at = harness.get_by_label("Second: its body, to be dragged").rect().center();
     click_at(&mut harness, at);
     assert_eq!(armed(&harness).as_deref(), Some("Second"));

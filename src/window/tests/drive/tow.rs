@@ -87,7 +87,7 @@ fn a_car_dragged_sideways_turns_its_wheels_and_does_not_slide() {
     let gripped = poses.last().unwrap().transform(Point2::new(1.0, 0.0));
     assert!(hypot(gripped.x - 9.0, gripped.y - 3.0) < 0.1, "{gripped}");
     assert_eq!(harness.state().robot(2).channels, [0, 0], "it rests there");
-    assert_eq!(interface(&harness).armed.as_deref(), Some("Hitch"), "it is in hand");
+    assert_eq!(interface(&harness).hand.armed.as_deref(), Some("Hitch"), "it is in hand");
     // pulled again from its rest, it is the same drag
     let farther = on_screen(&harness, &lot, [9.6, 3.1]);
     pointer(&mut harness, farther, None);
@@ -95,7 +95,7 @@ fn a_car_dragged_sideways_turns_its_wheels_and_does_not_slide() {
     assert!(harness.state().robot(2).coordinates[0] > poses.last().unwrap().x + 0.3);
     pointer(&mut harness, farther, Some(false));
     harness.run_steps(3);
-    assert_eq!(interface(&harness).tow, None);
+    assert_eq!(interface(&harness).hand.tow, None);
     let inputs = inputs(&harness, before);
     assert!(inputs.len() > 10 && inputs.iter().all(|input| matches!(input, RobotInput::Drive(..))), "{inputs:?}");
     click(&mut harness, "Undo");
@@ -113,7 +113,7 @@ fn an_undo_in_the_middle_of_a_tow_brings_back_the_run_before_and_adds_nothing() 
     assert!(harness.state().script().events.len() > before.events.len(), "it is towed");
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     harness.run_steps(10);
-    assert_eq!(interface(&harness).tow, None);
+    assert_eq!(interface(&harness).hand.tow, None);
     assert_eq!(*harness.state().script(), before);
     pointer(&mut harness, to, Some(false));
     harness.run_steps(3);

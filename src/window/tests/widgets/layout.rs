@@ -88,7 +88,7 @@ fn what_is_said_of_the_robot_in_front_is_read_whole() {
         interface_mut(&mut harness).settings.world = 0;
         harness.run_steps(6);
         for said in
-            ["Rusty \u{b7} Apartment", "clearance: ", "show the scan", "close door A", "close door E", "d\u{3b8}/dt"]
+            ["Rusty \u{b7} Apartment", "clearance: ", "show the scan", "show the nearest", "doors", "d\u{3b8}/dt"]
         {
             read_whole(&harness, said);
         }

@@ -58,7 +58,7 @@ pub fn anatomy_view(
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
     }
-    state.over = on.pointed_at(&overlay).or_else(|| on.pointed_at(&backdrop));
+    state.pointer.over = on.pointed_at(&overlay).or_else(|| on.pointed_at(&backdrop));
     // a hint for who has not dragged it yet: words at the pointer hide the contact
     let known = Id::new("the robot was dragged");
     if on.response.dragged() {

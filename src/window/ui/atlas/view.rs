@@ -65,8 +65,8 @@ pub fn atlas_view(
         // before the paper is acted on
         state.atlas.enter();
     }
-    state.paper = on.response.has_focus();
-    if state.paper {
+    state.focus.paper = on.response.has_focus();
+    if state.focus.paper {
         keep_arrows(ui, on.response.id);
     }
     if let Some(template) = placing {

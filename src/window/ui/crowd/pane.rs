@@ -164,7 +164,8 @@ fn world(
         painter.circle_stroke(pos2(x as f32, y as f32), radius.max(9.0), Stroke::new(2.0, look.colour(Role::Focus)));
     }
     point_out(&response, &over, cockpit, &fit);
-    let armed = cockpit.robots.iter().find(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
+    let armed =
+        cockpit.robots.iter().find(|r| state.hand.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
     let role = if armed.is_some() || response.has_focus() { Role::Focus } else { Role::Hairline };
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
@@ -200,7 +201,7 @@ fn world(
 fn pick(shown: &CrowdPane, near: Option<u32>, picked: Option<u32>, state: &mut UiState, commands: &mut Vec<Command>) {
     if near.is_some() && near == picked {
         take_in_hand(shown.cockpit, in_reach(shown.cockpit), state, commands);
-    } else if near.is_none() && state.armed.is_some() {
+    } else if near.is_none() && state.hand.armed.is_some() {
         drive::let_go(state, commands);
     } else {
         drive::let_go(state, commands);
@@ -283,7 +284,7 @@ fn picked(
                 camera.approach(f64::from(paper.width()), &canvas::fit(&shown.cockpit.world, paper));
             }
             if robot.drivable {
-                let is_driven = state.armed.as_ref() == Some(&robot.name) || handles::have_focus(ui, robot);
+                let is_driven = state.hand.armed.as_ref() == Some(&robot.name) || handles::have_focus(ui, robot);
                 let drive = LabButton::new("Drive").selected(is_driven).show(ui, look);
                 if drive.on_hover_text("Drive it with the arrow keys").clicked() {
                     take_in_hand(shown.cockpit, in_reach(shown.cockpit), state, commands);

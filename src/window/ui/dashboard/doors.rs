@@ -1,6 +1,6 @@
 //! The doors of a pane's world: found under the pointer, and opened and closed.
 
-use bevy_egui::egui::{TextStyle, TextWrapMode, Ui};
+use bevy_egui::egui::{TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetType};
 
 use crate::window::ui::{Cockpit, Command};
 use motion_lab_core::geometry::{Point2, Segment};
@@ -32,12 +32,17 @@ pub fn door_at<'a>(cockpit: &'a Cockpit, fit: &Fit, at: ScreenPoint, reach: f64)
     doors.filter(|(away, _)| *away <= reach).min_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, door)| door)
 }
 
-/// The letters of the doors, each in the middle of its gap: what the links under the paper name.
+/// What a door is called in short: its letter, or its whole name.
+fn letter(door: &Door) -> &str {
+    door.name.strip_prefix("door ").unwrap_or(&door.name)
+}
+
+/// The letters of the doors, each in the middle of its gap: as the buttons under the paper have them.
 pub fn letters(cockpit: &Cockpit) -> Vec<Item> {
-    let letter = |door: &Door| {
+    let item = |door: &Door| {
         let label = Drawing::Label {
             at: door.a + 0.5 * (door.b - door.a),
-            text: door.name.strip_prefix("door ").unwrap_or(&door.name).to_owned(),
+            text: letter(door).to_owned(),
             anchor: Anchor::Centre,
             face: Face::Sans,
             size_px: 11.0,
@@ -45,7 +50,7 @@ pub fn letters(cockpit: &Cockpit) -> Vec<Item> {
         };
         Item::new(format!("letter/{}", door.name), door.name.as_str(), Role::Text, label)
     };
-    cockpit.atlas.world().doors.iter().map(letter).collect()
+    cockpit.atlas.world().doors.iter().map(item).collect()
 }
 
 /// Marks the doors that open or close with the next tick, across their gaps.
@@ -77,7 +82,7 @@ pub fn toggle<'a>(world: &str, doors: impl IntoIterator<Item = &'a Door>, comman
     }
 }
 
-/// Shows a row with a link for each door.
+/// Shows a row with a button for each door.
 pub fn row(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     if cockpit.atlas.world().doors.is_empty() {
         return;
@@ -85,19 +90,28 @@ pub fn row(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Body);
     ui.horizontal_wrapped(|ui| {
         ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        links(ui, cockpit, commands);
+        buttons(ui, cockpit, commands);
     });
 }
 
-/// Shows a link for each door, in the row that is being laid out; of one that is to change, what comes.
-pub fn links(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
+/// Shows a button for each door, in the row that is being laid out, dark where it is closed; of one that is to change,
+/// what comes.
+pub fn buttons(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     let world = cockpit.atlas.world();
+    if !world.doors.is_empty() {
+        ui.label("doors");
+    }
     for door in &world.doors {
         match to_come(cockpit, door) {
             Some(true) => _ = ui.weak(format!("{} opens", door.name)),
             Some(false) => _ = ui.weak(format!("{} closes", door.name)),
-            None if ui.link(words(door)).clicked() => toggle(&world.name, [door], commands),
-            None => {}
+            None => {
+                let button = ui.selectable_label(!door.open, letter(door)).on_hover_text(words(door));
+                button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, words(door)));
+                if button.clicked() {
+                    toggle(&world.name, [door], commands);
+                }
+            }
         }
     }
 }

@@ -19,23 +19,26 @@ pub fn in_reach(cockpit: &Cockpit) -> Option<&CockpitRobot> {
 /// The robot of a pane that is in hand, or was last; else the one that can be taken.
 pub fn chosen<'a>(cockpit: &'a Cockpit, state: &UiState) -> Option<&'a CockpitRobot> {
     let named = |name: &Option<String>| cockpit.robots.iter().find(|robot| name.as_ref() == Some(&robot.name));
-    [&state.armed, &state.nudged, &state.last_held].into_iter().find_map(named).or_else(|| in_reach(cockpit))
+    [&state.hand.armed, &state.focus.nudged, &state.hand.last_held]
+        .into_iter()
+        .find_map(named)
+        .or_else(|| in_reach(cockpit))
 }
 
 /// Takes a robot of a pane in hand, of an arm its first handle; lets go of it if it was in hand already. Says so where
 /// there is none.
 pub fn take_in_hand(cockpit: &Cockpit, robot: Option<&CockpitRobot>, state: &mut UiState, commands: &mut Vec<Command>) {
-    let again = robot.is_some_and(|r| [&state.armed, &state.nudged].contains(&&Some(r.name.clone())));
+    let again = robot.is_some_and(|r| [&state.hand.armed, &state.focus.nudged].contains(&&Some(r.name.clone())));
     drive::let_go(state, commands);
-    state.next_grasp = Some(Grasp::Leave);
+    state.focus.next_grasp = Some(Grasp::Leave);
     match robot {
         Some(_) if again => {}
         Some(robot) if robot.is_arm || robot.drivable => {
-            state.last_held = Some(robot.name.clone());
+            state.hand.last_held = Some(robot.name.clone());
             if robot.is_arm {
-                state.next_grasp = Some(Grasp::Take(robot.name.clone()));
+                state.focus.next_grasp = Some(Grasp::Take(robot.name.clone()));
             } else {
-                state.armed = Some(robot.name.clone());
+                state.hand.armed = Some(robot.name.clone());
             }
         }
         _ => {
@@ -61,12 +64,12 @@ pub struct Free<'a> {
 /// Shows on the paper of the robot in hand how to drive it, and for a finger the pad.
 pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look: &FrameColours, state: &mut UiState) {
     let Free { taken, of } = free;
-    let sideways = robot.trailer.is_some() && state.held.0 == 0 && state.held.1 != 0;
+    let sideways = robot.trailer.is_some() && state.hand.held.0 == 0 && state.hand.held.1 != 0;
     let touched = touched(ui);
     let words = if robot.is_arm {
         let finely = if touched { "" } else { "; arrows turn the joint, with Shift finely, Esc lets go" };
         format!("{}{finely}", joints_to_drag(robot))
-    } else if state.tow.as_ref().is_some_and(|tow| tow.robot == robot.name) {
+    } else if state.hand.tow.as_ref().is_some_and(|tow| tow.robot == robot.name) {
         "towed by its own commands; let go, and it stands".to_owned()
     } else if sideways {
         "steering alone moves nothing: driven, no car slides sideways".to_owned()
@@ -90,7 +93,7 @@ pub fn in_hand(ui: &mut Ui, robot: &CockpitRobot, paper: Rect, free: Free, look:
     ui.painter().rect_filled(rect, 0.0, look.theme.colour(Role::Paper));
     ui.painter().galley(rect.min + vec2(4.0, 2.0), galley, look.colour(Role::Text));
     if touched && robot.drivable {
-        let place = state.pad_place.take().unwrap_or(pad::corner(paper));
+        let place = state.hand.pad_place.take().unwrap_or(pad::corner(paper));
         pad::pad(ui, &robot.name, place, look, state);
     }
 }

@@ -22,7 +22,7 @@ use crate::window::ui::paint::{canvas, frame};
 use crate::window::ui::{Cockpit, Command, FrameColours, UiState};
 use motion_lab_core::geometry::Vector2;
 use motion_lab_core::picture::{Drawing, Fit, Item, Picture, Role, ScanDrawing, fan_scan, pick, places, scan_id};
-use motion_lab_sim::anatomy::touching_items;
+use motion_lab_sim::anatomy::{nearest_items, touching_items};
 use motion_lab_sim::atlas::{self, Atlas};
 use motion_lab_sim::simulation::SensorView;
 
@@ -105,14 +105,14 @@ pub fn paper(
     let over = over.with(touched_by(cockpit, state));
     canvas::paint(&painter, &over, &fit, look);
     let driven = chosen(cockpit, state);
-    let armed = driven.filter(|r| state.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
+    let armed = driven.filter(|r| state.hand.armed.as_ref() == Some(&r.name) || handles::have_focus(ui, r));
     let role = if armed.is_some() || response.has_focus() { Role::Focus } else { Role::Hairline };
     let width = if armed.is_some() { 2.0 } else { 1.0 };
     painter.rect_stroke(paper, 0.0, Stroke::new(width, look.colour(role)), StrokeKind::Inside);
     // under the pad
     let body = bodies::bodies(ui, cockpit, paper, &fit, look, state, commands);
     if let Some((robot, _)) = body {
-        state.last_held = Some(robot.name.clone());
+        state.hand.last_held = Some(robot.name.clone());
     }
     if let Some(robot) = armed {
         let taken = if camera.zoom > 1.0 { BUTTONS } else { 0.0 };
@@ -184,10 +184,10 @@ fn followed(
 ) -> Option<Fit> {
     // a view that went along would take the pointer's place along too, and a tow would never end
     // and a paper without room has no middle
-    if camera.zoom <= 1.0 || !paper.is_positive() || state.held == (0, 0) || state.tow.is_some() {
+    if camera.zoom <= 1.0 || !paper.is_positive() || state.hand.held == (0, 0) || state.hand.tow.is_some() {
         return None;
     }
-    let robot = cockpit.robots.iter().find(|robot| state.armed.as_ref() == Some(&robot.name))?;
+    let robot = cockpit.robots.iter().find(|robot| state.hand.armed.as_ref() == Some(&robot.name))?;
     let (bounds, scale) = (&cockpit.world.bounds, f64::from(scale));
     let [x, y] = camera.fit(whole, bounds, scale).screen_from_world(robot.footprint.bounds()?.centre());
     let middle = paper.shrink2(MARGIN * paper.size());
@@ -228,6 +228,10 @@ pub fn robots(ui: &Ui, cockpit: &Cockpit, state: &mut UiState) -> Vec<Item> {
         if let Some((_, goal)) = state.goal.as_ref().filter(|(name, _)| *name == robot.name) {
             items.extend(goal.items(&robot.footprint));
         }
+    }
+    if state.settings.nearest {
+        let scene = state.linked.scene_of(&cockpit.atlas);
+        items.extend(cockpit.robots.iter().flat_map(|robot| nearest_items(&scene, &robot.footprint)));
     }
     let now = ui.input(|i| i.time);
     items.extend(cockpit.robots_picture(|robot| {

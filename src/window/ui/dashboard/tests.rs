@@ -347,7 +347,7 @@ fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
         |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
     screen.frame(&model, vec![Event::PointerMoved(pos), button(true)]);
     assert_eq!(screen.frame(&model, vec![button(false)]), [], "arming is no input");
-    assert_eq!(screen.state.armed.as_deref(), Some("Rusty"));
+    assert_eq!(screen.state.hand.armed.as_deref(), Some("Rusty"));
     screen.frame(&model, vec![]);
     assert!(screen.texts().iter().any(|(text, _)| text == "arrows drive, Esc lets go"));
     let checkpoint = Command::from(TransportCommand::Checkpoint);
@@ -357,7 +357,7 @@ fn a_clicked_pane_is_driven_by_the_arrow_keys_until_esc() {
     assert_eq!(screen.frame(&model, vec![key(Key::ArrowRight, true)]), drive(128, -128));
     assert_eq!(screen.frame(&model, vec![key(Key::ArrowUp, false)]), drive(0, -128));
     assert_eq!(screen.frame(&model, vec![key(Key::Escape, true)]), drive(0, 0), "it does not drive on by itself");
-    assert_eq!(screen.state.armed, None);
+    assert_eq!(screen.state.hand.armed, None);
     screen.frame(&model, vec![key(Key::ArrowRight, false), key(Key::Escape, false)]);
     let step = [Command::from(TransportCommand::StepBack)];
     assert_eq!(screen.frame(&model, vec![key(Key::ArrowLeft, true)]), step, "the keys move through time again");
@@ -379,7 +379,7 @@ fn an_arm_is_not_armed_and_links_release_and_couple() {
         |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::NONE };
     screen.frame(&model, vec![Event::PointerMoved(pos), button(true)]);
     screen.frame(&model, vec![button(false)]);
-    assert_eq!(screen.state.armed, None);
+    assert_eq!(screen.state.hand.armed, None);
     screen.press(&model, "Bring Reach");
     assert_eq!(screen.click(&model, "resume tour"), sent("Reach", RobotInput::Release));
     screen.press(&model, "Bring Hitch");

@@ -41,7 +41,7 @@ pub fn dashboard(
     Panel::bottom("transport")
         .frame(Frame::NONE.inner_margin(Margin::symmetric(side, if look.low { 4 } else { 8 })))
         .show(ui, |ui| transport_bar(ui, model, history, look, state, commands));
-    let has_head = !narrow && !state.fills;
+    let has_head = !narrow && !state.screen.fills;
     if has_head {
         // over the plots too, which move none of its buttons when they come and go
         let margin = Margin { left: side, right: side, top: above, bottom: 0 };
@@ -60,11 +60,11 @@ pub fn dashboard(
     }
     let margin = Margin { top: if has_head { UNDER_HEAD } else { above }, ..Margin::symmetric(side, above) };
     let panel = CentralPanel::default().frame(Frame::NONE.inner_margin(margin)).show(ui, |ui| {
-        let has_plots = narrow && state.settings.plots && !state.fills;
+        let has_plots = narrow && state.settings.plots && !state.screen.fills;
         let has_crowd = model.cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
         // in a low room the head stands beside the picture
         let is_beside = look.low && !has_plots && !has_crowd && !model.cockpits.is_empty();
-        if !state.fills && !is_beside {
+        if !state.screen.fills && !is_beside {
             header(ui, model, look, state, commands);
             ui.add_space(8.0);
         }
@@ -100,7 +100,7 @@ pub fn take(action: HandAction, model: &Dashboard, state: &mut UiState, commands
     };
     state.settings.world = pane as u32;
     // a narrow screen shows either the plots or a pane
-    state.settings.plots &= !state.is_narrow;
+    state.settings.plots &= !state.screen.is_narrow;
     if let Some(crowd) = cockpit.crowd.as_ref().filter(|crowd| state.crowd.picked_in(crowd).is_none()) {
         state.crowd.pick(crowd, Some(crowd.first));
     }

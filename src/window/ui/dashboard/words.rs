@@ -289,6 +289,10 @@ fn links(
                 state.settings.scan = !state.settings.scan;
             }
         }
+        let words = if state.settings.nearest { "hide the nearest" } else { "show the nearest" };
+        if ui.link(words).clicked() {
+            state.settings.nearest = !state.settings.nearest;
+        }
         // a program's own arm has the links that it has
         let own = [RobotKind::REACH.name, RobotKind::REACH3.name].contains(&robot.kind.as_str());
         if robot.is_arm && own {
@@ -299,7 +303,7 @@ fn links(
             }
         }
         if let Some(cockpit) = alone_in {
-            doors::links(ui, cockpit, commands);
+            doors::buttons(ui, cockpit, commands);
         }
         match (&goal, trailer_of(&robot.footprint).filter(|_| robot.trailer == Some(true))) {
             (Some((_, goal)), trailer) => {

@@ -59,6 +59,8 @@ pub enum SessionAction {
     Labels,
     /// The scan on or off.
     Scan,
+    /// The nearest points on or off.
+    Nearest,
     /// The picture in front over the whole window, or not.
     Fill,
     /// The hints, or none.

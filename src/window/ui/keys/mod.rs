@@ -51,7 +51,7 @@ const fn shifted(action: Action, key: Key, words: &'static str) -> Binding {
 }
 
 /// All keys.
-pub const BINDINGS: [Binding; 58] = [
+pub const BINDINGS: [Binding; 59] = [
     plain(Action::Time(TimeAction::PlayPause), Key::Space, Scope::Always, "play or pause"),
     plain(Action::Time(TimeAction::StepBack), Key::ArrowLeft, Scope::Unarmed, "one tick back, and pause"),
     plain(Action::Time(TimeAction::Step), Key::ArrowRight, Scope::Unarmed, "one tick, and pause"),
@@ -136,6 +136,7 @@ pub const BINDINGS: [Binding; 58] = [
     plain(Action::Session(SessionAction::Plots), Key::P, Scope::Always, "plots"),
     plain(Action::Session(SessionAction::Labels), Key::T, Scope::Always, "names of things"),
     plain(Action::Session(SessionAction::Scan), Key::F, Scope::Always, "what the range sensor sees"),
+    plain(Action::Session(SessionAction::Nearest), Key::V, Scope::Always, "what is nearest to the robot"),
     plain(
         Action::Session(SessionAction::Fill),
         Key::M,

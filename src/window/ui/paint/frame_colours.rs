@@ -36,21 +36,21 @@ impl FrameColours {
     pub fn of(ui: &Ui, state: &mut UiState, narrow: bool, low: bool) -> Self {
         let is_busy = state.is_busy() || ui.ctx().dragged_id().is_some();
         // what a page lit in one widget stays dark in the next
-        if state.page_lit.is_some_and(|(widget, _)| widget != state.widget) {
-            state.page_lit = None;
+        if state.pointer.page_lit.is_some_and(|(widget, _)| widget != state.widget) {
+            state.pointer.page_lit = None;
         }
-        let page_lit = state.page_lit.map(|(_, role)| role);
-        let pointed = state.pointed.take().or(page_lit).filter(|_| !is_busy);
-        if pointed != state.lit && pointed.is_some() {
-            state.lit = pointed;
+        let page_lit = state.pointer.page_lit.map(|(_, role)| role);
+        let pointed = state.pointer.pointed.take().or(page_lit).filter(|_| !is_busy);
+        if pointed != state.pointer.lit && pointed.is_some() {
+            state.pointer.lit = pointed;
         }
         let id = Id::new("lit role");
         let seconds = if state.has_reduced_motion() || is_busy { 0.0 } else { FADE_SECONDS };
         let strength = ui.ctx().animate_bool_with_time(id, pointed.is_some(), seconds);
         if is_busy || strength == 0.0 && pointed.is_none() {
-            state.lit = None;
+            state.pointer.lit = None;
         }
-        FrameColours { theme: state.theme(), narrow, low, lit: state.lit, strength: f64::from(strength) }
+        FrameColours { theme: state.theme(), narrow, low, lit: state.pointer.lit, strength: f64::from(strength) }
     }
 
     /// The opacity of a role, from 0 to 1.

@@ -86,7 +86,7 @@ pub fn transport_bar(
 ) {
     let narrow = look.narrow;
     let top = ui.available_rect_before_wrap().top();
-    let wheel = !state.embedded;
+    let wheel = !state.screen.embedded;
     let line = TimeLine { model, history, look, wheel, chance: state.chance.as_ref() };
     line.show(ui, &mut state.span, commands);
     ui.spacing_mut().item_spacing.x = if narrow { 5.0 } else { 6.0 };

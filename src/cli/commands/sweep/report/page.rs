@@ -102,7 +102,7 @@ fn list(gathered: &Gathered, page: &mut String, heading: &str, rows: &[RunRow], 
                     n = row.row
                 )
             }
-            _ => "it could not be run</td><td>".into(),
+            _ => "there was no run</td><td>".into(),
         };
         let _ = writeln!(page, "<td>{see}</td></tr>");
     }

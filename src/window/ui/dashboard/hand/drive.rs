@@ -32,11 +32,11 @@ fn channels(input: &InputState) -> (i16, i16) {
 /// whole tow.
 pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec<Command>) {
     let robots = || model.cockpits.iter().flat_map(|cockpit| &cockpit.robots);
-    let Some(robot) = state.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
-        (state.armed, state.tow) = (None, None);
-        (state.held, state.pad) = ((0, 0), (0, 0));
+    let Some(robot) = state.hand.armed.clone().filter(|name| robots().any(|r| r.drivable && r.name == *name)) else {
+        (state.hand.armed, state.hand.tow) = (None, None);
+        (state.hand.held, state.hand.pad) = ((0, 0), (0, 0));
         let is_asked = ui.input(|i| i.key_pressed(Key::ArrowUp) || i.key_pressed(Key::ArrowDown));
-        let is_seen = robots().any(|r| r.drivable) && !(state.settings.plots && state.is_narrow);
+        let is_seen = robots().any(|r| r.drivable) && !(state.settings.plots && state.screen.is_narrow);
         if is_asked && is_seen && ui.memory(|m| m.focused().is_none()) && !Popup::is_any_open(ui.ctx()) {
             let text = "no robot is in hand: click its world, or press its number".to_owned();
             state.say(Notice { text, is_error: false });
@@ -45,21 +45,21 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
     };
     let elsewhere = ui.memory(|m| m.focused().is_some());
     let keys = if elsewhere { (0, 0) } else { ui.input(channels) };
-    let tow = state.tow.take().filter(|tow| tow.robot == robot);
+    let tow = state.hand.tow.take().filter(|tow| tow.robot == robot);
     if tow.as_ref().is_some_and(|tow| tow.has_gone_back(model.tick)) {
         // the run that came back has inputs of its own: to let go would be one more
-        state.held = (0, 0);
+        state.hand.held = (0, 0);
         return;
     }
-    state.tow = tow.and_then(|tow| tow.go_on(model.tick));
-    let towed = state.tow.as_ref().map_or((0, 0), |tow| tow.channels);
-    let by_hand = [keys, state.pad, state.stick, towed];
+    state.hand.tow = tow.and_then(|tow| tow.go_on(model.tick));
+    let towed = state.hand.tow.as_ref().map_or((0, 0), |tow| tow.channels);
+    let by_hand = [keys, state.hand.pad, state.hand.stick, towed];
     let wanted = by_hand.into_iter().find(|channels| *channels != (0, 0)).unwrap_or_default();
-    if wanted == state.held {
+    if wanted == state.hand.held {
         return;
     }
-    if state.held == (0, 0) {
-        let has_driven = state.tow.as_mut().is_some_and(|tow| std::mem::replace(&mut tow.has_driven, true));
+    if state.hand.held == (0, 0) {
+        let has_driven = state.hand.tow.as_mut().is_some_and(|tow| std::mem::replace(&mut tow.has_driven, true));
         if !has_driven {
             commands.push(Command::from(TransportCommand::Checkpoint));
         }
@@ -72,14 +72,14 @@ pub fn drive(ui: &Ui, model: &Dashboard, state: &mut UiState, commands: &mut Vec
 
 /// Lets go of the robot in hand and sets its channels to 0, so that it does not drive on by itself.
 pub fn let_go(state: &mut UiState, commands: &mut Vec<Command>) {
-    (state.pad, state.tow) = ((0, 0), None);
-    if let Some(robot) = state.armed.take().filter(|_| state.held != (0, 0)) {
+    (state.hand.pad, state.hand.tow) = ((0, 0), None);
+    if let Some(robot) = state.hand.armed.take().filter(|_| state.hand.held != (0, 0)) {
         hold(robot, (0, 0), state, commands);
     }
 }
 
 fn hold(robot: String, channels: (i16, i16), state: &mut UiState, commands: &mut Vec<Command>) {
-    state.held = channels;
+    state.hand.held = channels;
     let input = RobotInput::Drive(channels.0, channels.1);
     commands.push(Command::from(RobotCommand { robot, input }));
 }

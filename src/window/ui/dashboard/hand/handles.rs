@@ -67,14 +67,14 @@ pub fn handles(
     let on = HandlePaper { painter, fit };
     for link in 0..points.len().saturating_sub(1) {
         let id = handle_id(robot, link);
-        match &state.grasp {
+        match &state.focus.grasp {
             Some(Grasp::Take(arm)) if *arm == robot.name && link == 0 => ui.memory_mut(|m| m.request_focus(id)),
             Some(Grasp::Leave) => ui.memory_mut(|m| m.surrender_focus(id)),
             _ => {}
         }
         if handle(ui, robot, link, &points, &on, look, commands) {
-            state.nudged = Some(robot.name.clone());
-            state.last_held = Some(robot.name.clone());
+            state.focus.nudged = Some(robot.name.clone());
+            state.hand.last_held = Some(robot.name.clone());
         }
     }
 }

@@ -43,7 +43,7 @@ pub fn pad(ui: &mut Ui, robot: &str, rect: Rect, look: &FrameColours, state: &mu
     let radius = 0.5 * SIZE;
     let held = response.interact_pointer_pos().filter(|_| response.is_pointer_button_down_on());
     let off = held.map_or(Vec2::ZERO, |at| (at - centre) / radius);
-    state.pad = channels(off.x, -off.y);
+    state.hand.pad = channels(off.x, -off.y);
     let painter = ui.painter_at(rect.expand(2.0));
     painter.circle(centre, radius, look.tint(Role::Paper, 0.35), Stroke::new(1.5, look.colour(Role::Focus)));
     for (x, y) in [(0.0, -1.0), (0.0, 1.0), (-1.0, 0.0), (1.0, 0.0)] {

@@ -32,18 +32,18 @@ pub fn gripped(robot: &CockpitRobot, coordinates: &[f64], pressed: Point2) -> Op
 
 /// Takes a robot in hand by its grip.
 pub fn take(robot: &CockpitRobot, by: Gripped, state: &mut UiState, commands: &mut Vec<Command>) {
-    if state.armed.as_ref() != Some(&robot.name) {
+    if state.hand.armed.as_ref() != Some(&robot.name) {
         drive::let_go(state, commands);
-        state.next_grasp = Some(Grasp::Leave);
-        state.armed = Some(robot.name.clone());
+        state.focus.next_grasp = Some(Grasp::Leave);
+        state.hand.armed = Some(robot.name.clone());
     }
-    state.tow = Some(HeldTow::new(&robot.name, by));
+    state.hand.tow = Some(HeldTow::new(&robot.name, by));
 }
 
 /// Pulls a robot that is gripped toward the pointer: its channels are left in the state, where `drive` takes them.
 /// Returns what there is to draw.
 pub fn pull(ui: &Ui, robot: &CockpitRobot, pointer: Point2, state: &mut UiState) -> Vec<Item> {
-    let tow = state.tow.as_mut().filter(|tow| tow.robot == robot.name);
+    let tow = state.hand.tow.as_mut().filter(|tow| tow.robot == robot.name);
     let (Some(tow), Some((model, q))) = (tow, as_model(robot)) else { return Vec::new() };
     let line = tow.line_to(pointer);
     let Some(command) = line.command(&model, &q) else { return Vec::new() };

@@ -61,11 +61,11 @@ impl Stage<'_> {
     /// Shows the cockpits in what is left of `ui`.
     pub fn show(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let cockpits = &self.model.cockpits;
-        state.scrolls = cockpits.len() > 3 && !self.look.narrow && !state.fills;
+        state.screen.scrolls = cockpits.len() > 3 && !self.look.narrow && !state.screen.fills;
         let has_crowd = cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
         if cockpits.is_empty() {
             ui.weak("No world is loaded.");
-        } else if state.fills {
+        } else if state.screen.fills {
             self.filling(ui, state, commands);
         } else if self.look.low && !has_crowd {
             self.lying(ui, state, commands);
@@ -161,7 +161,7 @@ impl Stage<'_> {
             let whole = Rect::from_min_max(place(k), pos2(place(k).x + width, bottom));
             if self.small(ui, cockpit, SmallCockpit { index: *index, whole, paper }, state) {
                 drive::let_go(state, commands);
-                state.next_grasp = Some(Grasp::Leave);
+                state.focus.next_grasp = Some(Grasp::Leave);
                 state.settings.world = *index as u32;
             }
         }
@@ -225,11 +225,11 @@ impl Stage<'_> {
         let (mut space, words) = if is_large { (None, below) } else { below_paper(below, NARROW_WORDS) };
         let driven = in_hand::chosen(cockpit, state).filter(|robot| robot.drivable && touched(ui));
         if let Some((place, rest)) = space.filter(|_| driven.is_some()).and_then(pad::at_right_of) {
-            (state.pad_place, space) = (Some(place), Some(rest));
+            (state.hand.pad_place, space) = (Some(place), Some(rest));
         }
         let fit = pane::paper(ui, cockpit, sheet, linked.way(), self.look, state, commands);
         // where no robot is in hand, the pad takes its own
-        if let Some((place, robot)) = state.pad_place.take().zip(driven)
+        if let Some((place, robot)) = state.hand.pad_place.take().zip(driven)
             && pad::pad(ui, &robot.name, place, self.look, state)
         {
             in_hand::take_in_hand(cockpit, Some(robot), state, commands);
@@ -239,7 +239,7 @@ impl Stage<'_> {
         let to = index as i32 + if is_whole { swiped(ui, sheet) } else { 0 };
         if to != index as i32 && (0..self.model.cockpits.len() as i32).contains(&to) {
             drive::let_go(state, commands);
-            state.next_grasp = Some(Grasp::Leave);
+            state.focus.next_grasp = Some(Grasp::Leave);
             state.settings.world = to as u32;
         }
         if let Some(space) = space {
@@ -271,7 +271,7 @@ impl Stage<'_> {
             ui.label(RichText::new(cockpit.heading()).color(self.look.colour(Role::Text)));
         }
         if ui.link("Show all").on_hover_text(hint(SessionAction::Fill)).clicked() {
-            state.fills = false;
+            state.screen.fills = false;
         }
         if let Some(fit) = fit {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| scale_bar(ui, fit.px_per_metre(), self.look));
@@ -318,7 +318,8 @@ impl Stage<'_> {
 /// The cockpit in front, and its index: where panes lie side by side the one with the robot in hand, else the one
 /// chosen last.
 pub fn front<'a>(cockpits: &'a [Cockpit], state: &UiState) -> Option<(usize, &'a Cockpit)> {
-    let is_armed = |cockpit: &Cockpit| cockpit.robots.iter().any(|robot| state.armed.as_ref() == Some(&robot.name));
+    let is_armed =
+        |cockpit: &Cockpit| cockpit.robots.iter().any(|robot| state.hand.armed.as_ref() == Some(&robot.name));
     let chosen = cockpits.iter().position(is_armed).unwrap_or(state.settings.world as usize);
     cockpits.get(chosen).map(|cockpit| (chosen, cockpit)).or(cockpits.first().map(|first| (0, first)))
 }

@@ -44,7 +44,7 @@ pub fn formula(
         let term = ui.interact(place, response.id.with(i), Sense::click());
         term.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{text}: {}", role.name())));
         points_at(state, &term, role);
-        if state.over == Some(role) || term.has_focus() {
+        if state.pointer.over == Some(role) || term.has_focus() {
             let stroke = Stroke::new(1.5, look.theme.colour(role));
             ui.painter().hline(place.x_range(), place.bottom(), stroke);
         }

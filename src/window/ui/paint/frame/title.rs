@@ -108,7 +108,7 @@ fn swatch(ui: &Ui, role: Role, at: bevy_egui::egui::Pos2, look: &FrameColours) {
 /// Lights a role in the next frame if something of it is pointed at or has the focus.
 pub fn points_at(state: &mut UiState, response: &bevy_egui::egui::Response, role: Role) {
     if response.hovered() && rests(response) || response.has_focus() {
-        state.pointed = Some(role);
+        state.pointer.pointed = Some(role);
     }
 }
 

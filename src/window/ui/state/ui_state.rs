@@ -2,15 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use bevy_egui::egui::Rect;
-
-use super::atlas::Mode;
-use super::paint::camera::Camera;
-use super::time::span::ShownSpan;
-use super::{AtlasState, CockpitRobot, ParkingExercise, Settings};
+use super::focus::FocusState;
+use super::hand::HandState;
+use super::pointer::PointerState;
+use super::screen::ScreenState;
+use super::words::{Closing, Flash, Notice, Offer, SeedDraft, Working};
+use crate::window::ui::atlas::Mode;
+use crate::window::ui::paint::camera::Camera;
+use crate::window::ui::time::span::ShownSpan;
+use crate::window::ui::{
+    AnatomyState, AskedTwin, AtlasState, CaptureState, CockpitRobot, CrowdState, CspaceState, LessonState, LinkedState,
+    ParkingExercise, PlanState, Recent, Settings, ShownChance,
+};
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Shape};
-use motion_lab_core::picture::{Role, Theme};
-use motion_lab_core::random::Seed;
+use motion_lab_core::picture::Theme;
 use motion_lab_core::worlds::{Obstacle, ObstacleKind, World};
 use motion_lab_sim::manifest::{HintTask, Widget};
 
@@ -23,83 +28,42 @@ pub struct Interface(pub UiState);
 pub struct UiState {
     /// The settings, which are kept from one start to the next.
     pub settings: Settings,
+    /// The robot in hand.
+    pub hand: HandState,
+    /// Who has the keys.
+    pub focus: FocusState,
+    /// What is pointed at.
+    pub pointer: PointerState,
+    /// The screen and its surroundings.
+    pub screen: ScreenState,
     /// The widget in front.
     pub widget: Widget,
     /// Whether the run waits, since the dashboard was left, to play on there.
     pub played: bool,
     /// The state of the query anatomy. Its robot is also the configuration space's.
-    pub anatomy: super::AnatomyState,
+    pub anatomy: AnatomyState,
     /// The state of the configuration space.
-    pub cspace: super::CspaceState,
+    pub cspace: CspaceState,
     /// The configuration beside the cockpit in front.
-    pub linked: super::LinkedState,
+    pub linked: LinkedState,
     /// What was asked for with a robot's twin on the dashboard.
-    pub twin: Option<super::AskedTwin>,
+    pub twin: Option<AskedTwin>,
     /// The state of the atlas.
     pub atlas: AtlasState,
     /// The state of the widget that plans.
-    pub plan: super::PlanState,
+    pub plan: PlanState,
     /// Other worlds of the atlas with their edits and what can be undone of them, in the order they were left.
     pub shelf: Vec<AtlasState>,
     /// The robot picked in a crowd, and how crowds are shown.
-    pub crowd: super::CrowdState,
+    pub crowd: CrowdState,
     /// What part of each world the dashboard shows, by the world's name.
     pub cameras: BTreeMap<String, Camera>,
     /// The part of the run that the time line shows.
     pub span: ShownSpan,
-    /// Whether the dashboard's panes are more than fit the window, so that the wheel scrolls them.
-    pub scrolls: bool,
-    /// Whether the picture in front fills the window.
-    pub fills: bool,
     /// The state of the capture form.
-    pub capture: super::CaptureState,
-    /// The system's theme.
-    pub system_theme: Theme,
-    /// Whether the system asks for less motion.
-    pub system_reduced_motion: bool,
+    pub capture: CaptureState,
     /// What is typed into the seed's field and is not yet the run's seed.
     pub seed: Option<SeedDraft>,
-    /// The name of the robot that the arrow keys drive.
-    pub armed: Option<String>,
-    /// The name of the robot that was taken in hand last.
-    pub last_held: Option<String>,
-    /// The channels last sent to the robot in hand, from -128 to 128, the maximum.
-    pub held: (i16, i16),
-    /// The channels of the pad on the screen, from -128 to 128, the maximum.
-    pub pad: (i16, i16),
-    /// The robot that the pointer tows.
-    pub tow: Option<super::HeldTow>,
-    /// Where the pad is in this frame, if it has a place off the paper.
-    pub pad_place: Option<Rect>,
-    /// The channels of a gamepad's stick, from -128 to 128, the maximum.
-    pub stick: (i16, i16),
-    /// The arm whose handle had the focus in the last frame. Such a handle keeps the arrow keys and no others.
-    pub nudged: Option<String>,
-    /// The role of what is pointed at in a picture, whose terms are underlined.
-    pub over: Option<Role>,
-    /// Whether text was typed in the last frame: a field had the focus as it ended.
-    pub typing: bool,
-    /// Whether the atlas's paper had the focus in the last frame. It leaves the keys to the atlas.
-    pub paper: bool,
-    /// A change of which handle has the focus, for this frame.
-    pub grasp: Option<Grasp>,
-    /// The same, for the next frame.
-    pub next_grasp: Option<Grasp>,
-    /// Whether a dialog for a file is open: all keys are the dialog's.
-    pub dialog: bool,
-    /// The role that is lit: all others fade.
-    pub lit: Option<Role>,
-    /// The role that the surrounding page asks to light, and in which widget. It counts only while nothing here is
-    /// pointed at.
-    pub page_lit: Option<(Widget, Role)>,
-    /// Whether the lab is embedded in another page: it shows one widget and no rail.
-    pub embedded: bool,
-    /// The role that is pointed at in this frame.
-    pub pointed: Option<Role>,
-    /// Whether fingers touch the screen, or may: controls are as large as a fingertip.
-    pub is_touched: bool,
-    /// Whether the screen is so narrow that a widget shows one thing at a time.
-    pub is_narrow: bool,
     /// Whether the list of keys is open.
     pub help: bool,
     /// The name of a car and its parking exercise.
@@ -115,80 +79,15 @@ pub struct UiState {
     /// The run that a window before left, while it is offered.
     pub offer: Option<Offer>,
     /// The files opened or saved last.
-    pub recent: super::Recent,
+    pub recent: Recent,
     /// The last chance to avoid the contact that was asked about, while the run is the same.
-    pub chance: Option<super::ShownChance>,
+    pub chance: Option<ShownChance>,
     /// The work in the background, if any.
     pub working: Option<Working>,
     /// The lesson under way.
-    pub lesson: Option<super::LessonState>,
+    pub lesson: Option<LessonState>,
     /// What the reader did in this frame that hints ask for.
     pub did: Vec<HintTask>,
-}
-
-/// Work in the background.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Working {
-    /// Its progress, in words.
-    pub text: String,
-    /// Whether it was asked to stop.
-    pub stop: bool,
-}
-
-/// How far closing the window has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Closing {
-    /// The window is to close, and edits would be lost: the question is shown.
-    Asking,
-    Agreed,
-}
-
-/// A run that a window before left.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Offer {
-    /// Which run it is, in words.
-    pub text: String,
-    /// Whether the reader wants it back; `None` before they say.
-    pub answer: Option<bool>,
-}
-
-/// A change of which handle has the focus.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Grasp {
-    /// The first handle of the arm with this name takes it.
-    Take(String),
-    Leave,
-}
-
-/// Text typed into the seed's field.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct SeedDraft {
-    /// The text.
-    pub text: String,
-    /// The run's seed while it was typed. A draft for another seed is dropped.
-    pub of: Seed,
-    /// The ticks that the run had while it was typed. For a run of fewer, which began since, it is dropped.
-    pub frontier: u64,
-    /// Whether it was entered and is no seed.
-    pub is_refused: bool,
-}
-
-/// A robot's contact flash, as shown on the screen.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Flash {
-    /// Whether the robot is shown red.
-    pub red: bool,
-    /// Time of the last change, seconds of the window's clock.
-    pub since: f64,
-}
-
-/// A message to the user.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Notice {
-    /// The words.
-    pub text: String,
-    /// Whether it reports an error.
-    pub is_error: bool,
 }
 
 /// Shortest time between two changes of a flash, seconds: at most three changes a second.
@@ -197,18 +96,18 @@ const FLASH_SECONDS: f64 = 1.0 / 3.0;
 impl UiState {
     /// The theme in use: the chosen one, or the system's.
     pub fn theme(&self) -> Theme {
-        self.settings.theme.theme(self.system_theme)
+        self.settings.theme.theme(self.screen.system_theme)
     }
 
     /// Whether something goes on that must not fade: a robot in hand, a refusal, a dialog.
     pub fn is_busy(&self) -> bool {
         let refused = self.widget == Widget::Atlas && self.atlas.refusal().is_some();
-        self.armed.is_some() || self.nudged.is_some() || refused || self.dialog
+        self.hand.armed.is_some() || self.focus.nudged.is_some() || refused || self.focus.dialog
     }
 
     /// Whether the wheel alone magnifies a world: it is not needed to scroll the page around or the panes.
     pub fn takes_wheel(&self) -> bool {
-        !self.embedded && !self.scrolls
+        !self.screen.embedded && !self.screen.scrolls
     }
 
     /// Whether a dialog or a form stands before the lab, so that no key is the lab's.
@@ -216,7 +115,7 @@ impl UiState {
         if self.closing.is_some() {
             return true;
         }
-        self.help || self.capture.open || self.dialog
+        self.help || self.capture.open || self.focus.dialog
     }
 
     /// The last message of the widget in front.
@@ -275,7 +174,7 @@ impl UiState {
 
     /// Whether nothing eases: the system or the reader asks for it.
     pub fn has_reduced_motion(&self) -> bool {
-        self.settings.reduced_motion || self.system_reduced_motion
+        self.settings.reduced_motion || self.screen.system_reduced_motion
     }
 
     /// The worlds of the atlas whose edits are in no file, by their names in the list of worlds.

@@ -1,8 +1,12 @@
 //! The robot in front, handed on from widget to widget.
 
 use super::*;
+use crate::window::ui::paint::style::ScreenTheme;
+use bevy_egui::egui::epaint::ColorMode;
 use motion_lab_core::collision::{Checker, Collision, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
+use motion_lab_core::geometry::Pose2;
+use motion_lab_core::picture::{Role, Theme};
 use motion_lab_core::robots::{AnyRobot, Reach, Robot};
 use motion_lab_core::worlds::World;
 use motion_lab_sim::anatomy::{Anatomy, Tab};
@@ -72,7 +76,7 @@ fn the_world_is_handed_on_as_it_stands() {
     click(&mut harness, "Step");
     click(&mut harness, "Query");
     // the middle of the gap, where only the closed door is
-    let there = AnyConfiguration::Pose(motion_lab_core::geometry::Pose2::new(6.0, 4.75, 0.0));
+    let there = AnyConfiguration::Pose(Pose2::new(6.0, 4.75, 0.0));
     interface_mut(&mut harness).anatomy.anatomy.set_q(there).unwrap();
     assert!(asked(&harness).intersects());
     assert_eq!(asked(&harness).copy_as_command(), None, "no command knows this world");
@@ -159,4 +163,37 @@ fn a_car_is_handed_on_with_its_trailer() {
     assert!(car.hitch_len.is_some());
     assert_eq!(asked(&harness).q().coordinates(), harness.state().robot(2).coordinates);
     assert_eq!(asked(&harness).footprint().parts().len(), 2, "the car and its trailer");
+}
+
+#[test]
+fn what_is_nearest_is_drawn_where_the_robot_drives() {
+    let mut harness = stopped("Rusty");
+    let magenta = Theme::Light.colour(Role::Witness);
+    // the ends of the segments of this colour that are painted
+    let painted = |harness: &Harness<'_, Lab>| {
+        let ends = harness.output().shapes.iter().filter_map(|clipped| match &clipped.shape {
+            egui::Shape::LineSegment { points, stroke } if stroke.color == magenta => Some(points.to_vec()),
+            egui::Shape::Path(path) if path.stroke.color == ColorMode::Solid(magenta) => Some(path.points.clone()),
+            _ => None,
+        });
+        ends.flatten().collect::<Vec<_>>()
+    };
+    assert!(painted(&harness).is_empty());
+    harness.key_press(Key::V);
+    harness.run_steps(3);
+    for _ in 0..3 {
+        let there = harness.state().robot(0).coordinates;
+        let footprint = motion_lab_core::robots::RUSTY.footprint(&Pose2::new(there[0], there[1], there[2]));
+        let witness = Scene::apartment().witness(&footprint).unwrap();
+        let world = motion_lab_core::picture::world(&World::apartment());
+        let fit = crate::window::ui::paint::canvas::fit(&world, paper(&harness, "Apartment"));
+        for end in [witness.on_robot, witness.on_obstacle] {
+            let [x, y] = fit.screen_from_world(end);
+            let near = |p: &Pos2| p.distance(pos2(x as f32, y as f32)) < 1.0;
+            assert!(painted(&harness).iter().any(near), "{end} at {x} {y}: {:?}", painted(&harness));
+        }
+        click(&mut harness, "Step");
+    }
+    click(&mut harness, "hide the nearest");
+    assert!(painted(&harness).is_empty());
 }
