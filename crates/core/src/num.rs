@@ -93,7 +93,8 @@ pub fn greater(a: f64, b: f64) -> f64 {
 /// assert_eq!(wrap(0.25), 0.25);
 /// ```
 pub fn wrap(angle: f64) -> f64 {
-    let r = libm::fmod(angle, TAU);
+    // the remainder of less than a turn is itself
+    let r = if angle.abs() < TAU { angle } else { libm::fmod(angle, TAU) };
     let wrapped = if r > PI {
         r - TAU
     } else if r <= -PI {
@@ -155,6 +156,17 @@ pub fn sinc(x: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_angle_of_less_than_a_turn_is_its_own_remainder() {
+        let near = |x: f64| [x.next_down(), x, x.next_up()];
+        let all = [0.0, 1.0, 2.5, PI, 4.0, TAU, 7.0, 2.0 * TAU, 1e300, f64::INFINITY, f64::NAN].map(near);
+        for angle in all.as_flattened().iter().flat_map(|x| [*x, -x]) {
+            let r = libm::fmod(angle, TAU);
+            let by_remainder = [r, r - TAU, r + TAU].into_iter().find(|w| *w > -PI && *w <= PI).map_or(r, |w| w) + 0.0;
+            assert_eq!(wrap(angle).to_bits(), by_remainder.to_bits(), "{angle}");
+        }
+    }
 
     #[test]
     fn wrap_is_exact_modulo_two_pi_and_stays_in_range() {

@@ -7,7 +7,7 @@ use crate::geometry::{Footprint, Placed};
 
 /// A [`Collision`] that forwards every query to another checker and counts it. Planners are compared by these counts.
 ///
-/// The two hooks are forwarded too, so the queries counted are those that the other checker answers without a counter.
+/// The hooks are forwarded too, so the queries counted are those that the other checker answers without a counter.
 ///
 /// ```
 /// use motion_lab_core::prelude::*;
@@ -34,7 +34,7 @@ pub struct QueryCounts {
     pub intersects: u64,
     /// `distance`.
     pub distance: u64,
-    /// `distance_of_hull`: the distances that a march asks to prove its steps.
+    /// `distance_of_hull` and `distance_of_hull_within`: the distances that a march asks to prove its steps.
     pub distance_of_hull: u64,
     /// `clears`, the separation test, whatever its answer.
     pub clears: u64,
@@ -92,6 +92,11 @@ impl<C: Collision> Collision for Counted<C> {
     fn distance_of_hull(&self, hull: Placed) -> f64 {
         self.distance_of_hull.fetch_add(1, Ordering::Relaxed);
         self.inner.distance_of_hull(hull)
+    }
+
+    fn distance_of_hull_within(&self, hull: Placed, within: f64) -> f64 {
+        self.distance_of_hull.fetch_add(1, Ordering::Relaxed);
+        self.inner.distance_of_hull_within(hull, within)
     }
 
     fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {

@@ -21,6 +21,10 @@ macro_rules! passes_on {
                 (**self).distance_of_hull(hull)
             }
 
+            fn distance_of_hull_within(&self, hull: Placed, within: f64) -> f64 {
+                (**self).distance_of_hull_within(hull, within)
+            }
+
             fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
                 (**self).clears(from, to, reach)
             }

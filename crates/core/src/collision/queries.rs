@@ -14,7 +14,7 @@ impl Collision for Scene {
         }
         footprint.parts().iter().any(|part| {
             let mut hit = false;
-            self.each_within(part.placed(), 0.0, |piece| {
+            self.index.each_near(&part.placed().padded_bounds_of_valid(), 0.0, |piece| {
                 hit = touches(part.placed(), &self.pieces[piece]);
                 hit
             });
@@ -37,10 +37,14 @@ impl Collision for Scene {
     }
 
     fn distance_of_hull(&self, hull: Placed) -> f64 {
+        self.distance_of_hull_within(hull, f64::INFINITY)
+    }
+
+    fn distance_of_hull_within(&self, hull: Placed, within: f64) -> f64 {
         if !hull.is_valid() {
             return 0.0;
         }
-        self.nearest_piece(&hull, f64::INFINITY).map_or(f64::INFINITY, |(_, n)| n.dist)
+        self.nearest_piece(&hull, within).map_or(within, |(_, n)| n.dist)
     }
 
     fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {

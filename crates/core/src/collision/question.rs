@@ -9,8 +9,9 @@ use crate::geometry::{Footprint, Placed};
 /// when [`distance`](Self::distance) is 0. Whatever cannot be decided counts as contact, never as free: a footprint
 /// with a number that is not finite intersects, has distance 0, is hit by every sweep, and has no witness.
 ///
-/// Two hooks serve speed alone: [`distance_of_hull`](Self::distance_of_hull) and [`clears`](Self::clears). A checker
-/// may leave both out. One that passes its queries on to another should pass these on too.
+/// Three hooks serve speed alone: [`distance_of_hull`](Self::distance_of_hull),
+/// [`distance_of_hull_within`](Self::distance_of_hull_within) and [`clears`](Self::clears). A checker may leave them
+/// out. One that passes its queries on to another should pass these on too.
 ///
 /// A placed shape *is* its rounded `f64` vertices and radius. With M the larger of 1 and the largest coordinate
 /// involved: `intersects` is exact for segments and convex polygons, and with radii errs, if at all, to contact within
@@ -34,6 +35,14 @@ pub trait Collision: Send + Sync {
     /// exactly on contact and for a hull that is not valid. A greater answer would prove motions free that are not.
     fn distance_of_hull(&self, hull: Placed) -> f64 {
         self.distance(&Footprint::of_hull(hull))
+    }
+
+    /// The [`distance_of_hull`](Self::distance_of_hull), metres, where it is less than `within`; elsewhere any number
+    /// from `within` to that distance. It is asked where a greater distance would prove no more.
+    ///
+    /// The default is the distance itself. An override may stop looking at what is farther than `within`.
+    fn distance_of_hull_within(&self, hull: Placed, _within: f64) -> f64 {
+        self.distance_of_hull(hull)
     }
 
     /// A conservative separation test for a part's swept hull: true only if a part whose vertices move in straight

@@ -55,12 +55,16 @@ impl Collision for Surroundings<'_> {
     }
 
     fn distance_of_hull(&self, hull: Placed) -> f64 {
+        self.distance_of_hull_within(hull, f64::INFINITY)
+    }
+
+    fn distance_of_hull_within(&self, hull: Placed, within: f64) -> f64 {
         if !hull.is_valid() || !self.others.iter().all(Placed::is_valid) {
             return 0.0;
         }
         let others = self.others.iter().map(|other| nearest(&hull, other).dist);
-        let other = others.fold(f64::INFINITY, |least, dist| crate::num::lesser(dist, least));
-        crate::num::lesser(self.scene.distance_of_hull(hull), other)
+        let other = others.fold(within, |least, dist| crate::num::lesser(dist, least));
+        crate::num::lesser(self.scene.distance_of_hull_within(hull, other), other)
     }
 
     fn clears(&self, from: &Placed, to: &Placed, reach: f64) -> bool {
@@ -83,5 +87,39 @@ impl Collision for Surroundings<'_> {
 
     fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
         swept::hits(self, a, b, |motion| march(self, motion, SWEEP, None))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::collision::Counted;
+    use crate::geometry::Point2;
+    use crate::random::{Seed, Stream};
+
+    #[test]
+    fn a_distance_within_a_limit_is_the_distance_or_no_less_than_the_limit() {
+        let mut draws = Stream::new(Seed(8), "within");
+        let scene = Scene::apartment();
+        let (mut near, mut far) = (0, 0);
+        for _ in 0..400 {
+            let mut at = || Point2::new(draws.uniform(0.0, 12.0), draws.uniform(0.0, 8.0));
+            let (hull, others) = (Placed::new([at(), at()], 0.05), [Placed::new([at()], 0.2)]);
+            let surroundings = Surroundings { scene: &scene, others: &others };
+            let counted = Counted::new(surroundings);
+            for checker in [&scene as &dyn Collision, counted.inner(), &counted, &&counted] {
+                let distance = checker.distance_of_hull(hull.clone());
+                assert_eq!(distance, checker.distance(&Footprint::of_hull(hull.clone())));
+                for within in [0.05, 0.5, distance, f64::INFINITY] {
+                    let found = checker.distance_of_hull_within(hull.clone(), within);
+                    let is_near = distance < within;
+                    assert!(if is_near { found == distance } else { within <= found && found <= distance });
+                    (near, far) = (near + u32::from(is_near), far + u32::from(!is_near));
+                }
+                assert_eq!(checker.distance_of_hull_within(Placed::new([], 0.1), 0.5), 0.0, "not valid");
+            }
+            assert_eq!(counted.counts().distance_of_hull, 2 * 6);
+        }
+        assert!(near > 1000 && far > 1000, "{near} {far}");
     }
 }

@@ -6,7 +6,7 @@ use super::bisection::{SpeedBounds, pinch};
 use super::conservative_advancement::{MarchQueries, go, hit, march_on, width};
 use super::local_scene::Vicinity;
 use super::place::{At, ContactAhead, Course, MotionStart};
-use super::step::{rounding, step_clearance};
+use super::step::rounding;
 use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ProvenStep, Scene};
 use crate::geometry::{Aabb, Footprint, largest_coordinate};
 use crate::num::{greater, lesser};
@@ -80,7 +80,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
         let mut least = f64::INFINITY;
         let mut swept: Option<Aabb> = None;
         for k in all {
-            let (sagitta, distance, rounding) = self.clears(k, from, to);
+            let (sagitta, distance, rounding) = self.clears(&self.around, k, [from, to], f64::INFINITY);
             least = lesser(distance - sagitta - rounding, least);
             let kept = distance - 2.0 * sagitta - 4.0 * rounding;
             if kept > 0.0 {
@@ -94,9 +94,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
         }
         if least > 0.0 {
             self.clearance = least;
-            if let Some(c) = self.certificate.as_deref_mut() {
-                c.push(ProvenStep { from: 0.0, to: 1.0, clearance: least });
-            }
+            self.note(from, to, least);
             return true;
         }
         if let Some(swept) = swept {
@@ -107,24 +105,23 @@ impl<'a, M: Motion> Nearby<'a, M> {
         false
     }
 
-    /// The sagitta of a part in a step, the distance of its hull and that distance's rounding, metres. A distance of no
-    /// more than the sagitta is only an upper bound: the step fails in any case. A distance that would neither fail the
-    /// step nor lower the clearance is only a lower bound.
-    fn clears(&self, part: usize, from: At, to: At) -> (f64, f64, f64) {
+    /// The sagitta of a part in a step, the distance of its hull among these pieces and that distance's rounding,
+    /// metres. A distance of no more than the sagitta is only an upper bound: the step fails in any case. A distance
+    /// that proves more than `below` is only a lower bound.
+    fn clears(&self, among: &Vicinity, part: usize, [from, to]: [At; 2], below: f64) -> (f64, f64, f64) {
         let hull = from.footprint.parts()[part].placed().hull_with(to.footprint.parts()[part].placed());
         let (size, sagitta) = (largest_coordinate([&hull]), self.motion.sagitta(part, from.s, to.s));
-        let reach = self.clearance + sagitta;
+        let reach = below + sagitta;
         let within = reach + 2.0 * rounding(size, reach);
-        let distance = self.around.distance(&hull, sagitta, within).unwrap_or(within);
+        let distance = among.distance(&hull, sagitta, within).unwrap_or(within);
         (sagitta, distance, rounding(size, distance))
     }
 
-    /// The clearance that a step proves for the open parts, metres; not positive when it proves nothing. Only a lower
-    /// bound where it is more than the clearance so far.
-    fn open_clearance(&self, from: At, to: At) -> f64 {
-        let mut least = f64::INFINITY;
-        for &k in &self.open {
-            let (sagitta, distance, rounding) = self.clears(k, from, to);
+    /// The least of `below` and of what a step proves for these parts, metres; not positive when it proves nothing.
+    fn proven(&self, among: &Vicinity, parts: impl Iterator<Item = usize>, step: [At; 2], below: f64) -> f64 {
+        let mut least = below;
+        for k in parts {
+            let (sagitta, distance, rounding) = self.clears(among, k, step, least);
             least = lesser(distance - sagitta - rounding, least);
             if least <= 0.0 {
                 break;
@@ -133,13 +130,40 @@ impl<'a, M: Motion> Nearby<'a, M> {
         least
     }
 
+    /// The clearance that a step proves for the open parts, metres; not positive when it proves nothing. Only a lower
+    /// bound where it is more than is asked for: the step's own clearance for a certificate, else the least of all.
+    fn open_clearance(&self, from: At, to: At) -> f64 {
+        let below = if self.certificate.is_some() { f64::INFINITY } else { self.clearance };
+        self.proven(&self.around, self.open.iter().copied(), [from, to], below)
+    }
+
+    /// The clearance that a step proves for all parts, metres, where it proves `open` for the open ones. The others are
+    /// measured only where they may come nearer.
+    fn clearance_of_all(&self, from: At, to: At, open: f64) -> f64 {
+        if self.kept >= open {
+            return open;
+        }
+        self.proven(&Vicinity::all(self.scene), self.settled(), [from, to], open)
+    }
+
+    /// Puts a proven step into the certificate, where one is asked for.
+    fn note(&mut self, from: At, to: At, clearance: f64) {
+        if let Some(c) = self.certificate.as_deref_mut() {
+            c.push(ProvenStep { from: from.s, to: to.s, clearance });
+        }
+    }
+
+    /// The parts that come near nothing.
+    fn settled(&self) -> impl Iterator<Item = usize> {
+        (0..self.parts).filter(|part| !self.open.contains(part))
+    }
+
     /// The distance of a footprint's open parts, metres, or `within` if it is not less than that.
     fn open_gap(&self, footprint: &Footprint, within: f64) -> f64 {
         if !footprint.is_valid() {
             return 0.0;
         }
-        let parts = self.open.iter().map(|&k| footprint.parts()[k].placed());
-        parts.fold(within, |least, part| self.around.distance(part, 0.0, least).unwrap_or(least))
+        nearest_of(&self.around, footprint, self.open.iter().copied(), within)
     }
 
     /// How far any part can move between two parameters, metres.
@@ -148,18 +172,21 @@ impl<'a, M: Motion> Nearby<'a, M> {
     }
 }
 
+/// The distance of these parts of a valid footprint, metres, or `within` if it is not less than that.
+fn nearest_of(among: &Vicinity, footprint: &Footprint, parts: impl Iterator<Item = usize>, within: f64) -> f64 {
+    let parts = parts.map(|k| footprint.parts()[k].placed());
+    parts.fold(within, |least, part| among.distance(part, 0.0, least).unwrap_or(least))
+}
+
 impl<M: Motion> MarchQueries for Nearby<'_, M> {
     fn proves(&mut self, from: At, to: At) -> bool {
         let open = self.open_clearance(from, to);
         if open <= 0.0 {
             return false;
         }
-        let needed = self.certificate.is_some() || self.kept < lesser(open, self.clearance);
-        let clearance = if needed { step_clearance(self.scene, self.motion, from, to) } else { open };
+        let clearance = self.clearance_of_all(from, to, open);
         self.clearance = lesser(clearance, self.clearance);
-        if let Some(c) = self.certificate.as_deref_mut() {
-            c.push(ProvenStep { from: from.s, to: to.s, clearance });
-        }
+        self.note(from, to, clearance);
         true
     }
 
@@ -170,7 +197,10 @@ impl<M: Motion> MarchQueries for Nearby<'_, M> {
     fn gap(&self, footprint: &Footprint) -> f64 {
         let gap = self.open_gap(footprint, f64::INFINITY);
         // the settled parts keep at least `kept` everywhere
-        if self.kept < gap { self.scene.distance(footprint) } else { gap }
+        if self.kept >= gap {
+            return gap;
+        }
+        nearest_of(&Vicinity::all(self.scene), footprint, self.settled(), gap)
     }
 
     fn touches(&self, footprint: &Footprint) -> bool {
@@ -184,12 +214,11 @@ impl<M: Motion> MarchQueries for Nearby<'_, M> {
         let gap_at = |footprint: &Footprint| self.open_gap(footprint, range);
         let clearance = |from: At, to: At| self.open_clearance(from, to);
         let found = pinch(gap_at, clearance, self.motion, pace, ahead)?;
-        if let Some(c) = self.certificate.as_deref_mut() {
+        if self.certificate.is_some() {
             for &(lo, hi) in found.steps.iter().rev() {
                 let [at_lo, at_hi] = [lo, hi].map(|s| self.motion.footprint_at(s));
                 let (from, to) = (At::new(lo, &at_lo), At::new(hi, &at_hi));
-                let clearance = step_clearance(self.scene, self.motion, from, to);
-                c.push(ProvenStep { from: lo, to: hi, clearance });
+                self.note(from, to, self.clearance_of_all(from, to, self.open_clearance(from, to)));
             }
         }
         Some(hit(self.scene, self.motion, found.free_until, found.contact_at))

@@ -15,9 +15,10 @@ pub(crate) fn step_clearance<M: Motion>(collision: &dyn Collision, motion: &M, f
     let mut least = f64::INFINITY;
     for (k, (p0, p1)) in from.footprint.parts().iter().zip(to.footprint.parts()).enumerate() {
         let hull = p0.placed().hull_with(p1.placed());
-        let size = largest_coordinate([&hull]);
-        let dist = collision.distance_of_hull(hull);
-        let proven = dist - motion.sagitta(k, from.s, to.s) - rounding(size, dist);
+        let (size, sagitta) = (largest_coordinate([&hull]), motion.sagitta(k, from.s, to.s));
+        // a distance that proves more than the parts before do changes nothing
+        let dist = collision.distance_of_hull_within(hull, proving(least, sagitta, size));
+        let proven = dist - sagitta - rounding(size, dist);
         // a NaN bound proves nothing, whatever the other parts are
         least = if proven.is_nan() { 0.0 } else { lesser(proven, least) };
         if least <= 0.0 {
@@ -25,6 +26,13 @@ pub(crate) fn step_clearance<M: Motion>(collision: &dyn Collision, motion: &M, f
         }
     }
     least
+}
+
+/// A distance that certainly proves more than this clearance, and so does every greater one, metres; infinity for an
+/// infinite clearance. Four times the rounding is added: the rounding may double with the distance.
+fn proving(clearance: f64, sagitta: f64, size: f64) -> f64 {
+    let reach = clearance + sagitta;
+    reach + 4.0 * rounding(size, reach)
 }
 
 /// What a step's proof subtracts for rounding from the distance of a hull whose coordinates are at most `size`, metres.

@@ -1,6 +1,7 @@
 //! `verify_certificate`, which checks certificates. It knows the contracts of [`Motion`] and [`Collision`] and nothing
-//! of how a certificate is made: its hull and its rounding are its own. It trusts [`Collision::distance_of_hull`],
-//! [`Motion::sagitta`] and the exact orientation predicate, which the march uses too.
+//! of how a certificate is made: its hull and its rounding are its own. It trusts
+//! [`Collision::distance_of_hull_within`], [`Motion::sagitta`] and the exact orientation predicate, which the march
+//! uses too.
 
 use crate::collision::{Certificate, CertificateError, Collision, ProvenStep};
 use crate::geometry::{Footprint, Placed, Point2, Vertices, orientation};
@@ -34,7 +35,7 @@ pub fn verify_certificate<M: Motion>(
         return Err(CertificateError::Margin(margin));
     }
     let limit = motion.leaves_limits().map_or(1.0, |leaving| leaving.within_until);
-    let mut at = 0.0;
+    let (mut at, mut end) = (0.0, None);
     for (i, step) in certificate.steps().iter().enumerate() {
         if step.from != at {
             return Err(CertificateError::Broken(i));
@@ -45,23 +46,32 @@ pub fn verify_certificate<M: Motion>(
         if step.to > limit {
             return Err(CertificateError::BeyondLimit { step: i, within_until: limit });
         }
-        let proven = proven(collision, motion, step);
+        // a step begins where the one before ends
+        let ends = [end.unwrap_or_else(|| motion.footprint_at(step.from)), motion.footprint_at(step.to)];
+        let proven = proven(collision, motion, step, greater(step.clearance, margin), &ends);
         if !(step.clearance <= proven && proven > margin) {
             return Err(CertificateError::Unproven { step: i, claimed: step.clearance, proven });
         }
-        at = step.to;
+        let [_, reached] = ends;
+        (at, end) = (step.to, Some(reached));
     }
     Ok(at)
 }
 
 /// The clearance that the contracts prove along a step, metres; 0 where the footprints at its ends don't match or are
-/// not valid.
-fn proven<M: Motion>(collision: &dyn Collision, motion: &M, step: &ProvenStep) -> f64 {
-    let ends = [step.from, step.to].map(|s| motion.footprint_at(s));
+/// not valid. Where it is more than `needed` any number above that will do, so no obstacle is measured that is farther.
+fn proven<M: Motion>(
+    collision: &dyn Collision,
+    motion: &M,
+    step: &ProvenStep,
+    needed: f64,
+    ends: &[Footprint; 2],
+) -> f64 {
     let [from, to] = [0, 1].map(|i: usize| ends[i].parts());
     if from.len() != to.len() || !ends.iter().all(Footprint::is_valid) {
         return 0.0;
     }
+    let rounding = |size: f64| if size.is_finite() { ROUNDING * ulp(size) } else { 0.0 };
     let mut least = f64::INFINITY;
     for (k, (p, q)) in from.iter().zip(to).enumerate() {
         let (p, q) = (p.placed(), q.placed());
@@ -69,9 +79,11 @@ fn proven<M: Motion>(collision: &dyn Collision, motion: &M, step: &ProvenStep) -
         let vertices = around(&points);
         let radius = greater(p.radius(), q.radius());
         let size = vertices.iter().fold(greater(radius, 1.0), |m, v| greater(greater(v.x.abs(), v.y.abs()), m));
-        let distance = collision.distance_of_hull(Placed::new(vertices, radius));
-        let rounding = if distance.is_finite() { ROUNDING * ulp(size + distance) } else { 0.0 };
-        let proven = distance - motion.sagitta(k, step.from, step.to) - rounding;
+        let sagitta = motion.sagitta(k, step.from, step.to);
+        // four times the rounding, because that may double with the distance
+        let enough = needed + sagitta + 4.0 * rounding(size + needed + sagitta);
+        let distance = collision.distance_of_hull_within(Placed::new(vertices, radius), enough);
+        let proven = distance - sagitta - rounding(size + distance);
         if proven.is_nan() {
             return 0.0;
         }
@@ -89,7 +101,7 @@ fn around(points: &[Point2]) -> Vertices {
     // no hull has more corners than there are points
     for _ in 0..points.len() {
         let mut next = start;
-        for &p in points {
+        for &p in points.iter().filter(|&&p| p != at) {
             let turn = orientation(at, next, p);
             let farther = (p.x - at.x).abs() > (next.x - at.x).abs() || (p.y - at.y).abs() > (next.y - at.y).abs();
             if next == at || turn < 0.0 || (turn == 0.0 && farther) {
@@ -107,13 +119,15 @@ fn around(points: &[Point2]) -> Vertices {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::collision::march;
-    use crate::collision::{MarchOptions, Scene};
-    use crate::configuration::R2;
+    use crate::collision::{MarchOptions, Scene, Witness};
+    use crate::configuration::{R2, Tn};
     use crate::geometry::{Part, Pose2, Segment, Shape, convex_hull};
     use crate::random::{Seed, Stream};
-    use crate::robots::Rates;
+    use crate::robots::{Rates, Reach, Robot};
 
     /// The two hulls share no code but the predicate: sorting and two chains there, a string around the points here.
     #[test]
@@ -175,5 +189,59 @@ mod tests {
             let verdict = march(&scene, odd, MarchOptions::default(), None);
             assert!(!verdict.is_free(), "{:?} {:?}", odd.silent, odd.lost);
         }
+    }
+
+    /// A scene that measures whatever it is asked for, however far it is.
+    struct Unlimited<'a>(&'a Scene);
+
+    impl Collision for Unlimited<'_> {
+        fn intersects(&self, footprint: &Footprint) -> bool {
+            self.0.intersects(footprint)
+        }
+
+        fn distance(&self, footprint: &Footprint) -> f64 {
+            self.0.distance(footprint)
+        }
+
+        fn witness(&self, footprint: &Footprint) -> Option<Witness> {
+            self.0.witness(footprint)
+        }
+
+        fn swept(&self, a: &Footprint, b: &Footprint) -> bool {
+            self.0.swept(a, b)
+        }
+    }
+
+    /// A march proves each step exactly, so a claim of a nanometre more is false, whichever part is the nearest.
+    #[test]
+    fn what_need_not_be_measured_changes_no_answer_and_a_claim_of_more_is_refused() {
+        let (scene, arm) = (Scene::workbench(), Reach::<3>::redundant());
+        let (slow, options) = (Unlimited(&scene), MarchOptions::default());
+        let mut draws = Stream::new(Seed(7), "claims");
+        let (mut certificate, mut slowly) = (Certificate::new(), Certificate::new());
+        let mut claims = 0;
+        for _ in 0..400 {
+            let a: [f64; 3] = std::array::from_fn(|_| draws.uniform(-PI, PI));
+            let b = a.map(|angle| angle + draws.uniform(-0.6, 0.6));
+            let edge = arm.edge(&Tn(a), &Tn(b).wrapped()).unwrap();
+            let verdict = march(&scene, &edge, options, Some(&mut certificate));
+            assert_eq!(verdict, march(&slow, &edge, options, Some(&mut slowly)));
+            assert_eq!(certificate, slowly);
+            let steps = certificate.steps();
+            for (forged, more) in (0..steps.len()).flat_map(|i| [0.0, 1e-15, 1e-9, 0.1].map(|more| (i, more))) {
+                let mut steps = steps.to_vec();
+                steps[forged].clearance += more;
+                for margin in [0.0, certificate.clearance()] {
+                    let claim = Certificate::from_steps(margin, steps.clone());
+                    let verified = verify_certificate(&scene, &edge, &claim);
+                    assert_eq!(verified, verify_certificate(&slow, &edge, &claim), "{edge:?} {claim:?}");
+                    assert!(margin > 0.0 || more > 0.0 || verified == Ok(claim.proven_until()), "{verified:?}");
+                    let refused = matches!(verified, Err(CertificateError::Unproven { step, .. }) if step == forged);
+                    assert!(margin > 0.0 || more < 1e-9 || refused, "{verified:?}");
+                }
+                claims += 1;
+            }
+        }
+        assert!(claims > 1000, "{claims}");
     }
 }

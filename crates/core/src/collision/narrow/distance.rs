@@ -73,7 +73,12 @@ fn nearest_apart(a: &Placed, b: &Placed, cores: NearestPoints) -> Option<Nearest
 
 /// Whether `a` and `b`, both valid, touch: exactly when [`nearest`] says 0.
 pub(crate) fn touch(a: &Placed, b: &Placed) -> bool {
-    if a.radius() + b.radius() == 0.0 { cores_contact(a.core(), b.core()).is_some() } else { nearest(a, b).dist == 0.0 }
+    if a.radius() + b.radius() == 0.0 {
+        return cores_contact(a.core(), b.core()).is_some();
+    }
+    // what is farther than this is apart in spite of all rounding
+    let apart = 128.0 * ulp(largest_coordinate([a, b]));
+    nearest_within(a, b, apart).is_some_and(|near| near.dist == 0.0)
 }
 
 /// The gap between two shapes whose cores are disjoint, or `None` on contact: squares compared in double-double.
@@ -170,6 +175,22 @@ mod tests {
         let wider = f64::from_bits(4.0_f64.to_bits() + 1);
         let apart = nearest(&disc(0.0, 0.0, 2.0), &disc(3.0, wider, 3.0));
         assert!(apart.dist > 0.0 && apart.dist < 1e-15, "{apart:?}");
+    }
+
+    /// Beside the middle of a long segment the rounding of a distance is far more than a nanometre.
+    #[test]
+    fn what_touches_has_no_distance_however_long_it_is() {
+        let mut touching = 0;
+        for (long, k) in [1.0, 1e3, 1e9].into_iter().flat_map(|long| (0..4000).map(move |k| (long, f64::from(k)))) {
+            let a = Placed::new([Point2::origin(), Point2::new(long, 0.37 * long)], 0.0625);
+            // beyond the middle by a radius of either, and by a few roundings
+            let (along, across) = (0.4 * long + k * 1e-3, 0.125 + (k % 7.0 - 3.0) * 0.25 * ulp(long));
+            let unit = 1.0 / sqrt(1.0 + 0.37 * 0.37);
+            let b = disc(along - 0.37 * unit * across, 0.37 * along + unit * across, 0.0625);
+            assert_eq!(touch(&a, &b), nearest(&a, &b).dist == 0.0, "{long} {k}");
+            touching += u32::from(touch(&a, &b));
+        }
+        assert!(touching > 3000 && touching < 9000, "{touching}");
     }
 
     #[test]
