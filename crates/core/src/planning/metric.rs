@@ -91,13 +91,24 @@ impl Metric {
 
     /// The squared distance of two points by their coordinates.
     pub(super) fn squared(&self, a: &[f64], b: &[f64]) -> f64 {
-        if a.len() != self.axes.len() || b.len() != self.axes.len() {
+        self.squared_or_more(a, b, f64::INFINITY)
+    }
+
+    /// The squared distance of two points by their coordinates; any number above `most` where it is above `most`, for
+    /// the sum of the first squares may be so already.
+    #[inline]
+    pub(super) fn squared_or_more(&self, a: &[f64], b: &[f64], most: f64) -> f64 {
+        let axes = self.axes();
+        if a.len() != axes.len() || b.len() != axes.len() {
             return f64::INFINITY;
         }
         let mut sum = 0.0;
-        for (axis, (a, b)) in self.axes.iter().zip(a.iter().zip(b)) {
+        for (axis, (a, b)) in axes.iter().zip(a.iter().zip(b)) {
             let d = axis.weight * gap(*a, *b, axis.is_angle);
             sum += d * d;
+            if sum > most {
+                break;
+            }
         }
         sum
     }

@@ -95,9 +95,7 @@ impl Nearest {
 
     fn find<C: Chart>(&self, q: &C, mut found: NearestSoFar) -> Vec<Neighbour> {
         let at = q.in_chart().coordinates();
-        for point in &self.list {
-            found.offer(self.metric.squared(&at, &point.at), point.number);
-        }
+        found.look_through(&self.list, &self.metric, &at);
         for tree in &self.trees {
             tree.visit(0..tree.points.len(), tree.corners.clone(), &self.metric, &at, &mut found);
         }
@@ -115,6 +113,17 @@ struct NearestSoFar {
 impl NearestSoFar {
     fn of(most: usize, within: f64) -> Self {
         NearestSoFar { most, within, best: Vec::new() }
+    }
+
+    /// Offers these points, one after the other.
+    fn look_through(&mut self, points: &[Point], metric: &Metric, at: &[f64]) {
+        for point in points {
+            let most = self.best.get(self.most.wrapping_sub(1)).map_or(f64::INFINITY, |last| last.0);
+            let squared = metric.squared_or_more(at, &point.at, most);
+            if squared <= most {
+                self.offer(squared, point.number);
+            }
+        }
     }
 
     fn offer(&mut self, squared: f64, number: usize) {
@@ -158,9 +167,7 @@ impl PointTree {
             return;
         }
         if range.len() <= LEAF {
-            for point in &self.points[range] {
-                found.offer(metric.squared(at, &point.at), point.number);
-            }
+            found.look_through(&self.points[range], metric, at);
             return;
         }
         let middle = usize::midpoint(range.start, range.end);
@@ -278,6 +285,7 @@ mod tests {
                 across += usize::from((0..angles.len()).any(|i| angles[i] && (a[i] - b[i]).abs() > PI));
             }
             assert_eq!(near.nearest(&q), Some(found[0]));
+            assert!(near.nearest_few(&q, 0).is_empty());
             let within = near.within(&q, found[found.len() / 2].distance);
             let count = (0..all.len()).filter(|&i| far(i) < found[found.len() / 2].distance - 1e-12).count();
             assert!(within.len() > count && within.iter().all(|n| n.distance <= found[found.len() / 2].distance));
