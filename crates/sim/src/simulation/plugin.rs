@@ -40,7 +40,7 @@ impl Plugin for SimulationPlugin {
             .init_resource::<PendingInput>()
             .init_resource::<Keyframes>()
             .insert_resource(LatestFrame::of_no_run())
-            .init_resource::<state::TakenStates>()
+            .init_resource::<state::StateTakers>()
             .init_resource::<Undo>()
             .init_resource::<ObstacleRoster>()
             .init_resource::<RefusedChanges>()
@@ -60,7 +60,7 @@ impl Plugin for SimulationPlugin {
                     world_crowds::index.in_set(TickPhase::Index).in_set(CrowdSystems),
                     world_crowds::meet.in_set(TickPhase::Meet).in_set(CrowdSystems),
                     sense::sense.in_set(SimulationSystems::Sense),
-                    state::record.in_set(TickPhase::Keep),
+                    state::record.in_set(SimulationSystems::Record),
                 ),
             )
             .add_systems(RunFixedMainLoop, command::carry_out.in_set(RunFixedMainLoopSystems::BeforeFixedMainLoop))

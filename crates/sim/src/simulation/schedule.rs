@@ -37,12 +37,10 @@ pub(super) enum KindSystems {
     Plan(usize),
     Cut(usize),
     Settle(usize),
-    Encode(usize),
 }
 
 /// The finer order within [`SimulationSystems::Step`] and [`SimulationSystems::Collide`]: every motion is planned,
-/// every motion is cut, those that meet are found, and only then do robots advance. Last come the robots' states in the
-/// frame.
+/// every motion is cut, those that meet are found, and only then do robots advance.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum TickPhase {
     Begin,
@@ -51,8 +49,6 @@ pub(super) enum TickPhase {
     Cut,
     Meet,
     Settle,
-    Encode,
-    Keep,
 }
 
 /// What a tick does only where some world has more than one robot.
@@ -81,6 +77,5 @@ pub(super) fn simulation_schedule() -> Schedule {
         (TickPhase::Cut, TickPhase::Meet, TickPhase::Settle).chain().in_set(SimulationSystems::Collide),
     );
     schedule.configure_sets(CrowdSystems.run_if(WorldCrowds::are_there));
-    schedule.configure_sets((TickPhase::Encode, TickPhase::Keep).chain().in_set(SimulationSystems::Record));
     schedule
 }

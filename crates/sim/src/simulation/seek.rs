@@ -28,7 +28,8 @@ pub(crate) fn step_alone(world: &mut World) {
     if has_shown || world.resource::<Transport>().tick == 0 || contact::are_observed(world) {
         step(world)
     } else {
-        advance_and_show(world)
+        run_tick(world);
+        show(world);
     }
 }
 
@@ -42,6 +43,11 @@ fn advance(world: &mut World) {
     if world.resource::<Transport>().tick == 0 {
         leave_start(world);
     }
+    run_tick(world);
+}
+
+/// Runs one tick of a run that has left its start.
+fn run_tick(world: &mut World) {
     at_work(world, |world| world.run_schedule(SimulationSchedule));
 }
 

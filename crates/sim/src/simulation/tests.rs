@@ -80,6 +80,6 @@ fn a_tick_has_systems_for_the_robots_that_were_there_and_later_ones_get_theirs()
     step(app.world_mut());
     let of_one_type = systems(&app);
     assert_eq!(run_in(&mut app, &[3, 0, 6, 2, 5, 1, 4]), run(&[0, 1, 2, 3, 4, 5, 6]), "whatever ran before");
-    // five systems for each of the car and the two arms
-    assert_eq!(systems(&app), of_one_type + 15);
+    // four systems for each of the car and the two arms
+    assert_eq!(systems(&app), of_one_type + 12);
 }

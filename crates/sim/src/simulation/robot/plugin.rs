@@ -7,14 +7,15 @@ use bevy::prelude::*;
 use super::describe::describe;
 use super::registry::{KindPlugin, RobotKinds, Spawner};
 use super::spawn::spawn_robot;
-use crate::simulation::schedule::{CrowdSystems, KindSystems, TickPhase};
+use crate::simulation::schedule::{KindSystems, TickPhase};
+use crate::simulation::state::StateTakers;
 use crate::simulation::tick::{drive, settle};
 use crate::simulation::truth::last_values::LastValues;
 use crate::simulation::truth::touched::AtStart::{Followed, Model, WithModel};
 use crate::simulation::truth::watch::{watch as watch_unnamed, watch_components};
 use crate::simulation::{
     Configuration, Contacts, Control, Cut, DrawnTour, DriveMode, OwnState, PreviousConfiguration, RobotModel, RobotOps,
-    SimulatedRobot, SimulationSchedule, SimulationSystems, TickMotion, state,
+    SimulatedRobot, SimulationSchedule, SimulationSystems, TickMotion,
 };
 use motion_lab_core::configuration::{Configuration as _, RobotKind};
 use motion_lab_core::geometry::Footprint;
@@ -72,6 +73,7 @@ fn install<R: SimulatedRobot>(world: &mut World) {
     }
     let number = systems.number;
     watch::<R>(world);
+    StateTakers::add::<R>(world);
     world.resource_mut::<Schedules>().add_systems(
         SimulationSchedule,
         (
@@ -79,7 +81,6 @@ fn install<R: SimulatedRobot>(world: &mut World) {
             drive::plan::<R>.in_set(KindSystems::Plan(number)).in_set(TickPhase::Plan),
             settle::cut::<R>.in_set(KindSystems::Cut(number)).in_set(TickPhase::Cut),
             settle::settle::<R>.in_set(KindSystems::Settle(number)).in_set(TickPhase::Settle),
-            state::encode::<R>.in_set(KindSystems::Encode(number)).in_set(TickPhase::Encode).in_set(CrowdSystems),
         ),
     );
 }
@@ -115,7 +116,7 @@ impl<R: SimulatedRobot> Plugin for RobotPlugin<R> {
         }
         watch_components!(app.world_mut(), Model, RobotModel<R>);
         app.insert_resource(SystemsOf::<R> { number, installed: false, of: std::marker::PhantomData });
-        let sets = [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle, KindSystems::Encode];
+        let sets = [KindSystems::Drive, KindSystems::Plan, KindSystems::Cut, KindSystems::Settle];
         for set in sets {
             if let Some(before) = number.checked_sub(1) {
                 app.configure_sets(SimulationSchedule, set(number).after(set(before)));
