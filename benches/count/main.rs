@@ -6,7 +6,8 @@ mod worlds;
 
 use std::hint::black_box;
 
-use motion_lab::collision::{Checker, Collision, Scene};
+use motion_lab::collision::{ChainChecker, Checker, Collision, Scene};
+use motion_lab::planning::{Bounds, RrtConnect, solve};
 use motion_lab::prelude::*;
 use motion_lab::recording::Recorder;
 use motion_lab::sensors::{Instructions, RangeSensor, Scanner};
@@ -66,6 +67,15 @@ fn arms(times: usize, ask: impl Fn(&Checker<Reach<2>>, &T2, &T2)) {
     }
 }
 
+/// Plans of the arm round the workbench's post, with a seed each, from the start to the certified path.
+fn plans(times: usize) {
+    for seed in 0..times as u64 {
+        let checker = ChainChecker::new(Scene::workbench(), Reach::<2>::workbench());
+        let problem = Problem::try_new(checker, T2::new(2.0, 0.0), T2::new(3.1, 0.0), Seed(seed)).expect("free ends");
+        black_box(solve(&mut RrtConnect::new(problem), &Bounds::default()).expect("there is a way"));
+    }
+}
+
 fn discs(times: usize) {
     (0..times).for_each(|i| _ = black_box(Footprint::disc(Point2::new(i as f64, 1.0), black_box(0.11))));
 }
@@ -91,6 +101,7 @@ fn main() {
         "witness" => arms(times, |c, a, _| _ = black_box(c.scene().witness(&c.robot().footprint(a)))),
         "edge" => arms(times, |c, a, b| _ = black_box(c.edge(a, b))),
         "free" => arms(times, |c, a, b| _ = black_box(c.edge_free(a, b))),
+        "plan" => plans(times),
         "tick" => {
             let mut recorder = Recorder::new(TourConfig::default(), BOOK_SEED).expect("the tour runs");
             (0..times).for_each(|_| _ = black_box(recorder.step().tick));
