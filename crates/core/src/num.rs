@@ -92,7 +92,16 @@ pub fn greater(a: f64, b: f64) -> f64 {
 /// assert_eq!(wrap(3.0 * PI), PI);
 /// assert_eq!(wrap(0.25), 0.25);
 /// ```
+#[inline]
 pub fn wrap(angle: f64) -> f64 {
+    if angle > -PI && angle <= PI {
+        return angle + 0.0; // as below, and most angles
+    }
+    wrap_far(angle)
+}
+
+/// [`wrap`] of an angle that may be out of range.
+fn wrap_far(angle: f64) -> f64 {
     // the remainder of less than a turn is itself
     let r = if angle.abs() < TAU { angle } else { libm::fmod(angle, TAU) };
     let wrapped = if r > PI {

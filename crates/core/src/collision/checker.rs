@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use super::motion::decide::{is_free, is_line_free, verdict};
+use super::motion::decide::{is_free, is_free_by_ladder, is_line_free, verdict};
+use super::motion::lanes::rung::decide;
 use super::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene, Witness};
 use crate::configuration::{Configuration, Coordinates};
 use crate::geometry::{Footprint, Shape, Vector2};
@@ -193,21 +194,25 @@ impl<R: Robot> Checker<R> {
     /// Several times as fast, because it computes neither the clearance along the edge nor the first contact. With a
     /// black box, whether that calls it free.
     pub fn edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> bool {
-        if self.black_box.is_none()
-            && let Some(free) = self.disc_edge_free(a, b)
-        {
-            return free;
+        if self.black_box.is_some() {
+            return self.robot.edge(a, b).is_ok_and(|edge| self.motion_free(&edge));
         }
-        self.robot.edge(a, b).is_ok_and(|edge| self.motion_free(&edge))
+        self.sure_edge_free(a, b)
+            .unwrap_or_else(|| self.robot.edge(a, b).is_ok_and(|edge| is_free_by_ladder(&self.scene, &edge)))
     }
 
-    /// As [`edge_free`](Self::edge_free), where a closed form says it without what an edge holds besides its ends.
+    /// As [`edge_free`](Self::edge_free), where it is sure without what an edge holds besides its ends.
     #[inline]
-    fn disc_edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> Option<bool> {
+    fn sure_edge_free(&self, a: &R::Configuration, b: &R::Configuration) -> Option<bool> {
         let is_own = |q| self.robot.check(q).is_ok();
         let (from, to) = (is_own(a) && is_own(b)).then(|| (a.in_chart(), b.in_chart()))?;
-        let (way, radius) = self.robot.disc_line(&from, &to)?;
-        if self.robot.edge_leaves(&from, &to).is_some() { None } else { is_line_free(&self.scene, way, radius) }
+        if self.robot.edge_leaves(&from, &to).is_some() {
+            return None;
+        }
+        match self.robot.disc_line(&from, &to) {
+            Some((way, radius)) => is_line_free(&self.scene, way, radius),
+            None => decide(&self.scene, &self.robot.edge_linkage(&from, &to)?),
+        }
     }
 
     /// As [`edge`](Self::edge), and fills `certificate` with the steps that prove it as far as it is free.
@@ -232,7 +237,7 @@ impl<R: Robot> Checker<R> {
             let hits = || black_box.swept(&motion.footprint_at(0.0), &motion.footprint_at(1.0));
             return motion.leaves_limits().is_none() && !hits();
         }
-        is_free(&self.scene, motion, MarchOptions::default().budget)
+        is_free(&self.scene, motion)
     }
 
     /// As [`motion_verdict`](Self::motion_verdict), and fills `certificate` with the steps that prove the motion as far

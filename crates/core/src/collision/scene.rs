@@ -7,6 +7,7 @@ use super::boundary::segments::SegmentSoup;
 use super::boundary::sight::SightCells;
 use super::broad::frames::Frames;
 use super::broad::index::Index;
+use super::motion::lanes::outlines::PieceOutlines;
 use super::narrow::convex::NearestPoints;
 use super::narrow::distance::depth;
 use super::narrow::nearest::NearestSearch;
@@ -42,6 +43,8 @@ pub struct Scene {
     pub(super) index: Index,
     /// The pieces' turned boxes; `None` in a large scene.
     pub(super) frames: Option<Frames>,
+    /// The pieces in single precision; `None` where they are too large for it, or one is not convex or not valid.
+    pub(super) outlines: Option<PieceOutlines>,
     /// An upper bound on the size of the pieces' coordinates, metres; infinite where a piece is not valid.
     pub(super) size: f64,
 }
@@ -143,8 +146,8 @@ impl Scene {
         let sight = if many { None } else { SightCells::new(soup.segments()).map(Arc::new) };
         let valid = pieces.iter().all(Placed::is_valid);
         let size = if valid { largest_coordinate(&pieces) } else { f64::INFINITY };
-        let (index, frames) = (Index::new(&extents), Frames::new(&pieces));
-        Scene { bounds, names, pieces, owners, soup, cells, sight, index, frames, size }
+        let (index, frames, outlines) = (Index::new(&extents), Frames::new(&pieces), PieceOutlines::new(&pieces, size));
+        Scene { bounds, names, pieces, owners, soup, cells, sight, index, frames, outlines, size }
     }
 
     /// The part of the plane the scene shows; not an obstacle.

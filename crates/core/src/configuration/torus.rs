@@ -61,7 +61,8 @@ impl<const N: usize> Configuration for Tn<N> {
     }
 
     fn difference(&self, to: &Self) -> Result<Coordinates, ChartMismatch> {
-        Ok(self.0.iter().zip(&to.0).map(|(a, b)| wrap(in_range(*b) - in_range(*a))).collect())
+        let turns: [f64; N] = std::array::from_fn(|k| wrap(in_range(to.0[k]) - in_range(self.0[k])));
+        Ok(Coordinates::from_slice(&turns))
     }
 
     fn interpolate(&self, to: &Self, s: f64) -> Result<Self, ChartMismatch> {

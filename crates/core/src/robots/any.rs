@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{ConfigurationError, Hitch, Leaving, PartRates, PointJacobian, Reach, Robot, Rusty};
+use super::{ConfigurationError, Hitch, Leaving, Linkage, PartRates, PointJacobian, Reach, Robot, Rusty};
 use crate::configuration::{AnyConfiguration, Configuration, HitchCfg, RobotKind, Tn};
 use crate::geometry::{Footprint, Part, Point2, Pose2, Segment, Shape};
 use crate::num::{greater, hypot, lesser};
@@ -222,6 +222,10 @@ impl Robot for AnyRobot {
 
     fn disc_line(&self, a: &AnyConfiguration, b: &AnyConfiguration) -> Option<(Segment, f64)> {
         of_its_own!(self, robot, (a, b) => robot.disc_line(a, b), None)
+    }
+
+    fn edge_linkage(&self, a: &AnyConfiguration, b: &AnyConfiguration) -> Option<Linkage> {
+        of_its_own!(self, robot, (a, b) => robot.edge_linkage(a, b), None)
     }
 
     fn jacobian(&self, q: &AnyConfiguration, part: usize, point: Point2) -> Option<PointJacobian> {

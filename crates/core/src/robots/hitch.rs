@@ -2,11 +2,14 @@
 
 use super::jackknife::leaves_along_line;
 use super::robot::{sample_angle, turning};
-use super::{ConfigurationError, Drivable, Leaving, Motion, PartRates, PointJacobian, Rates, Robot};
+use super::{
+    ConfigurationError, Drivable, Leaving, Linkage, Motion, PartRates, PointJacobian, Rates, Robot, TurningPart,
+};
 use crate::configuration::{CarSizes, Configuration, HitchCfg};
 use crate::geometry::{Aabb, Footprint, Part, Point2, Pose2, Shape, Vector2};
 use crate::num;
 use crate::random::Stream;
+use crate::short_list::ShortList;
 
 /// A car whose reference point is the middle of its rear axle; the hitch is there too.
 ///
@@ -246,6 +249,23 @@ impl Robot for Hitch {
             parts.push(rates(*dpsi, farthest(self.trailer_body.rectangle(hitch_len))));
         }
         Ok(parts)
+    }
+
+    /// Chassis and trailer turn about the rear axle's middle.
+    fn edge_linkage(&self, a: &HitchCfg, b: &HitchCfg) -> Option<Linkage> {
+        let d = a.difference(b).ok()?;
+        let part = |heading: f64, turn: f64, core: Aabb| TurningPart {
+            hinge: 0.0,
+            heading: num::in_range(heading),
+            turn,
+            core,
+            radius: 0.0,
+        };
+        let mut parts = ShortList::from([part(a.body.theta, d[2], self.body.rectangle())]);
+        if let (Some(psi), Some(hitch_len)) = (a.trailer, self.hitch_len) {
+            parts.push(part(psi, *d.get(3)?, self.trailer_body.rectangle(hitch_len)));
+        }
+        Some(Linkage { origin: a.body.position(), travel: Vector2::new(d[0], d[1]), parts })
     }
 
     /// Whether the hitch folds by no more than the car's `jackknife`. True without a limit or without a trailer.

@@ -40,6 +40,7 @@ mod check_rates;
 mod hitch;
 mod hitch_arc;
 mod jackknife;
+mod linkage;
 mod motion;
 mod reach;
 mod robot;
@@ -51,6 +52,8 @@ pub use any::AnyRobot;
 pub use check_rates::{MotionBound, RatesError, RatesUse, check_drive_rates, check_rates};
 pub use hitch::{CarBody, CarCmd, HITCH, Hitch, TrailerBody};
 pub use hitch_arc::HitchArc;
+#[doc(hidden)]
+pub use linkage::{Linkage, TurningPart};
 #[doc(hidden)]
 pub use motion::Beginning;
 pub use motion::{Leaving, Motion, Rates};

@@ -1,6 +1,7 @@
 //! `Motion`, the common interface of planners' edges and simulated ticks, which the certified march and the simulator's
 //! holding work on.
 
+use super::linkage::Linkage;
 use crate::configuration::Configuration;
 use crate::geometry::{CircularArc, Footprint, Segment};
 
@@ -47,6 +48,12 @@ pub trait Motion {
     /// The line that the centre of the footprint's only part follows at a constant speed, and the part's radius, where
     /// the part is a disc and the motion such a line. For these the checker has closed forms.
     fn disc_line(&self) -> Option<(Segment, f64)> {
+        None
+    }
+
+    /// The motion as a linkage, where it is one.
+    #[doc(hidden)]
+    fn linkage(&self) -> Option<Linkage> {
         None
     }
 

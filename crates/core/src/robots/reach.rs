@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use super::robot::{sample_angle, turning};
-use super::{ConfigurationError, Drivable, PartRates, PointJacobian, Rates, Robot};
+use super::{ConfigurationError, Drivable, Linkage, PartRates, PointJacobian, Rates, Robot, TurningPart};
 use crate::configuration::{Configuration, T2, Tn};
-use crate::geometry::{Footprint, Part, Point2, Pose2, Shape, ShapeError, SinCos, Vector2};
+use crate::geometry::{Aabb, Footprint, Part, Point2, Pose2, Shape, ShapeError, SinCos, Vector2};
 use crate::num::{self, greater, in_range, wrap};
 use crate::random::Stream;
 use crate::short_list::ShortList;
@@ -228,15 +228,28 @@ impl<const N: usize> Robot for Reach<N> {
     fn edge_rates(&self, a: &Tn<N>, b: &Tn<N>) -> Result<PartRates, ConfigurationError> {
         let d = a.difference(b)?;
         let (mut turn, mut rates) = (0.0, Rates::default());
-        Ok(d.iter()
-            .zip(self.lengths)
-            .map(|(dth, length)| {
-                turn += dth;
-                rates.speed += length * turn.abs();
-                rates.acceleration += length * turn * turn;
-                rates
-            })
-            .collect())
+        let parts: [Rates; N] = std::array::from_fn(|k| {
+            turn += d[k];
+            rates.speed += self.lengths[k] * turn.abs();
+            rates.acceleration += self.lengths[k] * turn * turn;
+            rates
+        });
+        Ok(PartRates::from_slice(&parts))
+    }
+
+    /// Each link turns about the end of the one before, at the sum of the rates of the joints up to it.
+    fn edge_linkage(&self, a: &Tn<N>, b: &Tn<N>) -> Option<Linkage> {
+        let d = a.difference(b).ok()?;
+        let (mut heading, mut turn, mut hinge) = (0.0, 0.0, 0.0);
+        let parts: [TurningPart; N] = std::array::from_fn(|k| {
+            heading = wrap(heading + in_range(a.0[k]));
+            turn += d[k];
+            let core = Aabb { min: Point2::origin(), max: Point2::new(self.lengths[k], 0.0) };
+            let part = TurningPart { hinge, heading, turn, core, radius: self.link_radius };
+            hinge = self.lengths[k];
+            part
+        });
+        Some(Linkage { origin: self.base, travel: Vector2::zeros(), parts: ShortList::from_slice(&parts) })
     }
 }
 

@@ -1,5 +1,6 @@
 //! `Robot` and `Drivable`, what planners and the simulator know of a robot.
 
+use super::linkage::Linkage;
 use super::motion::{Leaving, Motion, Rates};
 use crate::configuration::{ChartMismatch, Configuration};
 use crate::geometry::{Footprint, Point2, Segment, Vector2};
@@ -85,6 +86,13 @@ pub trait Robot: Clone + std::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The line that the footprint's centre follows along the chart's straight line from `a` to `b`, and the
     /// footprint's radius, metres; `None` where the robot is not a disc.
     fn disc_line(&self, _a: &Self::Configuration, _b: &Self::Configuration) -> Option<(Segment, f64)> {
+        None
+    }
+
+    /// The chart's straight line from `a` to `b` as a linkage, where the robot moves as one. The checker takes it for
+    /// what the footprints along the line say.
+    #[doc(hidden)]
+    fn edge_linkage(&self, _a: &Self::Configuration, _b: &Self::Configuration) -> Option<Linkage> {
         None
     }
 
@@ -184,6 +192,10 @@ impl<R: Robot> Motion for ChartLine<R> {
 
     fn disc_line(&self) -> Option<(Segment, f64)> {
         self.robot.disc_line(&self.from, &self.to)
+    }
+
+    fn linkage(&self) -> Option<Linkage> {
+        self.robot.edge_linkage(&self.from, &self.to)
     }
 
     fn leaves_limits(&self) -> Option<Leaving> {

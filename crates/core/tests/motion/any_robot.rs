@@ -6,13 +6,14 @@ use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{AnyRobot, Motion};
 
 /// The methods of `Robot` that are compared below.
-const COMPARED: [&str; 10] = [
+const COMPARED: [&str; 11] = [
     "check",
     "footprint",
     "edge_rates",
     "sample",
     "position",
     "disc_line",
+    "edge_linkage",
     "jacobian",
     "is_within_limits",
     "edge_leaves",
@@ -50,6 +51,7 @@ fn compare<R: Robot<Configuration: Into<AnyConfiguration>>>(scene: &Scene, robot
         assert_eq!(robot.position(&a), any.position(&any_a), "position");
         assert_eq!(robot.position(&a).is_none(), any.annulus().is_some(), "an arm stays where it is");
         assert_eq!(bits(robot.disc_line(&a, &b)), bits(any.disc_line(&any_a, &any_b)), "disc_line");
+        assert_eq!(robot.edge_linkage(&a, &b), any.edge_linkage(&any_a, &any_b), "edge_linkage");
         for part in 0..4 {
             let point = Point2::new(0.5 * (min.x + max.x), min.y);
             assert_eq!(bits(robot.jacobian(&a, part, point)), bits(any.jacobian(&any_a, part, point)), "jacobian");

@@ -6,11 +6,12 @@
 
 use super::closed_form::disc_line::DiscLine;
 use super::closed_form::verdicts::{circular, linear, straight};
+use super::lanes::rung;
 use super::limits::judge_beginning;
 use super::local_march::march_nearby;
 use super::place::Ends;
 use super::separation::{halve, is_separated, open_parts};
-use crate::collision::{Certificate, Collision, EdgeVerdict, Scene};
+use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, Scene};
 use crate::geometry::Segment;
 use crate::robots::Motion;
 
@@ -67,14 +68,22 @@ const HALVINGS: u32 = 48;
 
 /// Whether a motion in a scene is proven free: true wherever the [`verdict`] says so. Faster, because it computes
 /// neither the clearance nor the first contact.
-pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M, budget: u32) -> bool {
+pub(crate) fn is_free<M: Motion>(scene: &Scene, motion: &M) -> bool {
+    let sure = motion.linkage().filter(|_| motion.leaves_limits().is_none());
+    let sure = sure.and_then(|linkage| rung::decide(scene, &linkage));
+    sure.unwrap_or_else(|| is_free_by_ladder(scene, motion))
+}
+
+/// As [`is_free`], without the rung of eight intervals at once.
+pub(crate) fn is_free_by_ladder<M: Motion>(scene: &Scene, motion: &M) -> bool {
+    let budget = MarchOptions::default().budget;
     if motion.leaves_limits().is_some() {
         return false;
     }
     if let Some(free) = motion.disc_line().and_then(|(way, radius)| is_line_free(scene, way, radius)) {
         return free;
     }
-    if budget == 0 || motion.disc_arc().is_some() {
+    if motion.disc_arc().is_some() {
         return verdict(scene, motion, budget, None).is_free();
     }
     let separate = |ends: Ends| {

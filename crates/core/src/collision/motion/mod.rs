@@ -6,6 +6,7 @@ pub(crate) mod closed_form;
 pub(crate) mod conservative_advancement;
 pub(crate) mod decide;
 pub(crate) mod keeps;
+pub(crate) mod lanes;
 pub(crate) mod limits;
 pub(crate) mod local_march;
 pub(crate) mod local_scene;
