@@ -219,12 +219,11 @@ fn refusals_are_read_whole_on_any_screen() {
         pause(&mut harness);
         ui(&mut harness, |ui| ui.settings.world = 2);
         let to = [1.2, 2.5, 0.0].map(|v| motion_lab_sim::run::Quantized::try_new(v).unwrap()).to_vec();
-        let command =
-            motion_lab_sim::simulation::RobotCommand { robot: "Hitch".into(), input: RobotInput::Teleport(to) };
+        let input = RobotInput::Teleport(to);
+        let command = motion_lab_sim::simulation::RobotCommand { robot: "Hitch".into(), input };
         harness.state_mut().app.world_mut().write_message(RunCommand::from(command));
         harness.run_steps(3);
-        click(&mut harness, "Step");
-        click(&mut harness, "put a trailer on");
+        ["Step", "put a trailer on"].into_iter().for_each(|name| click(&mut harness, name));
         read_whole(&harness, "no room for a trailer: would overlap the west curb");
         ui(&mut harness, |ui| ui.settings.world = 0);
         click(&mut harness, "Atlas");

@@ -242,7 +242,8 @@ fn replays(lab: &Lab) -> bool {
 #[test]
 fn nothing_that_hands_do_stops_the_lab_and_its_run_is_the_same_again() {
     let number = |name: &str, usual: u64| std::env::var(name).map_or(usual, |n| n.parse().expect("a whole number"));
-    let (inputs, seed) = (number("MOTION_LAB_INPUTS", 2000), number("MOTION_LAB_SEED", 1));
+    let (inputs, seed) = (number("MOTION_LAB_INPUTS", 2000), number("MOTION_LAB_SEED", 5));
+    // of the first five seeds it is the one whose hands drive most
     let (mut replayed, mut ticks, mut driven) = (0, 0, 0);
     for n in 0..inputs.div_ceil(INPUTS_OF_A_LAB) {
         let size = [WIDE, PHONE, [820.0, 1180.0], [600.0, 500.0]][n as usize % 4];
