@@ -1,7 +1,8 @@
 //! The doors of a pane's world: found under the pointer, and opened and closed.
 
-use bevy_egui::egui::{TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetType};
+use bevy_egui::egui::{Button, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetType, vec2};
 
+use crate::window::ui::paint::touch::touched;
 use crate::window::ui::{Cockpit, Command};
 use motion_lab_core::geometry::{Point2, Segment};
 use motion_lab_core::picture::{Anchor, Drawing, Face, Fit, Item, Line, Role, ScreenPoint};
@@ -12,6 +13,9 @@ use motion_lab_sim::simulation::{TransportCommand, WorldCommand};
 /// Distance within which the pointer is at a door, points: with a mouse, and for a finger.
 const REACH: f64 = 7.0;
 const TOUCH: f64 = 18.0;
+
+/// Width of a door's button under a finger, points.
+const FINGER: f32 = 36.0;
 
 /// The distance within which the pointer is at a door, points: for a finger farther.
 pub fn reach(is_touched: bool) -> f64 {
@@ -101,12 +105,14 @@ pub fn buttons(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     if !world.doors.is_empty() {
         ui.label("doors");
     }
+    let width = if touched(ui) { FINGER } else { 0.0 };
     for door in &world.doors {
         match to_come(cockpit, door) {
             Some(true) => _ = ui.weak(format!("{} opens", door.name)),
             Some(false) => _ = ui.weak(format!("{} closes", door.name)),
             None => {
-                let button = ui.selectable_label(!door.open, letter(door)).on_hover_text(words(door));
+                let button = Button::selectable(!door.open, letter(door)).min_size(vec2(width, 0.0));
+                let button = ui.add(button).on_hover_text(words(door));
                 button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, words(door)));
                 if button.clicked() {
                     toggle(&world.name, [door], commands);
