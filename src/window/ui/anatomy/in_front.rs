@@ -22,7 +22,7 @@ use motion_lab_sim::run::Quantized;
 
 /// A robot where it stands, in its world as it is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RobotInFront {
+struct RobotInFront {
     /// Its name: that of a resident of the world, or of its kind.
     name: String,
     robot: AnyRobot,
@@ -64,9 +64,8 @@ impl RobotInFront {
     }
 
     /// The robot of Query and Space.
-    pub fn of_query(anatomy: &Anatomy) -> Self {
-        let robot = *anatomy.checker().robot();
-        let name = anatomy.lives_as().map_or_else(|| robot.title().to_owned(), |resident| resident.name.clone());
+    fn of_query(anatomy: &Anatomy) -> Self {
+        let (name, robot) = (name_of(anatomy).to_owned(), *anatomy.checker().robot());
         let (world, source) = (Arc::clone(anatomy.world()), anatomy.source().clone());
         RobotInFront { name, robot, q: anatomy.q(), world, source }
     }
@@ -79,7 +78,7 @@ impl RobotInFront {
     }
 
     /// The robot that the atlas's clicks put.
-    pub fn of_atlas(atlas: &AtlasState) -> Option<Self> {
+    fn of_atlas(atlas: &AtlasState) -> Option<Self> {
         let robot = atlas.atlas().robots().get(atlas.robot)?;
         let (world, source) = (Arc::new(atlas.world().clone()), atlas.source());
         Some(RobotInFront { name: robot.name.clone(), robot: robot.robot, q: robot.q, world, source })
@@ -113,21 +112,42 @@ impl RobotInFront {
             }
         }
     }
+}
 
-    /// Shows the button that puts the run's robot of this name where this one stands. It is disabled unless the run has
-    /// such a robot, with as many coordinates, in a world of this name.
-    pub fn put_in_run(&self, ui: &mut Ui, model: &Dashboard, look: &FrameColours, commands: &mut Vec<Command>) {
-        let (own, number) = (self.q.coordinates(), self.q.coordinates().len());
-        let is_other = |c: &Cockpit| c.robots.iter().any(|r| r.name == self.name && r.coordinates.len() != number);
-        let lives_there = |c: &Cockpit| c.world.name == self.world.name && c.has(&self.name) && !is_other(c);
+/// The button that puts a robot of the run where a widget has it.
+pub struct PutInRun<'a> {
+    /// The world's name.
+    pub world: &'a str,
+    /// The robot's name.
+    pub robot: &'a str,
+    pub q: AnyConfiguration,
+}
+
+impl<'a> PutInRun<'a> {
+    /// For the robot of Query and Space.
+    pub fn of_query(anatomy: &'a Anatomy) -> Self {
+        PutInRun { world: &anatomy.world().name, robot: name_of(anatomy), q: anatomy.q() }
+    }
+
+    /// Shows it. It is disabled unless the run has a robot of this name, with as many coordinates, in a world of this
+    /// name.
+    pub fn show(&self, ui: &mut Ui, model: &Dashboard, look: &FrameColours, commands: &mut Vec<Command>) {
+        let own = self.q.coordinates();
+        let is_other = |c: &Cockpit| c.robots.iter().any(|r| r.name == self.robot && r.coordinates.len() != own.len());
+        let lives_there = |c: &Cockpit| c.world.name == self.world && c.has(self.robot) && !is_other(c);
         let is_there = model.cockpits.iter().any(lives_there);
         let button = LabButton::new("Put it there in the run").enabled(is_there).show(ui, look);
         let words =
             if is_there { "At the next tick; Ctrl+Z undoes it" } else { "It does not live in the run under way" };
         if button.on_hover_text(words).clicked() {
             let coordinates = own.iter().filter_map(|c| Quantized::try_new(*c)).collect();
-            let (world, robot) = (self.world.name.clone(), self.name.clone());
+            let (world, robot) = (self.world.to_owned(), self.robot.to_owned());
             commands.push(Command::Session(SessionCommand::PutRobot { world, robot, coordinates }));
         }
     }
+}
+
+/// The name of the robot of Query and Space: of the world's resident that it is, or of its kind.
+fn name_of(anatomy: &Anatomy) -> &str {
+    anatomy.lives_as().map_or(anatomy.checker().robot().title(), |resident| &resident.name)
 }

@@ -6,7 +6,7 @@ use bevy_egui::egui::{
     ComboBox, DragValue, Id, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
 };
 
-use super::in_front::RobotInFront;
+use super::in_front::PutInRun;
 use super::state::Guesses;
 use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
@@ -152,7 +152,7 @@ fn more(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState
         if LabButton::new("Reset").show(ui, look).clicked() {
             state.anatomy = AnatomyState::default();
         }
-        RobotInFront::of_query(&state.anatomy.anatomy).put_in_run(ui, model, look, commands);
+        PutInRun::of_query(&state.anatomy.anatomy).show(ui, model, look, commands);
     });
     fold(ui, "Any robot, any world", false, |ui| any(ui, state));
 }

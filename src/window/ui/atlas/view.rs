@@ -6,7 +6,7 @@ use bevy_egui::egui::{
 
 use super::panel::edit_panel;
 use super::state::{AtlasState, Mode};
-use crate::window::ui::anatomy::in_front::RobotInFront;
+use crate::window::ui::anatomy::in_front::PutInRun;
 use crate::window::ui::keys::{AtlasAction, SessionAction, keep_arrows};
 use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
@@ -310,10 +310,11 @@ fn put_panel(ui: &mut Ui, state: &mut UiState) {
 /// the atlas; it is disabled unless the run has the robot in a world of this name. The second begins a run of this
 /// world with its robots where they stand.
 fn into_the_run(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &UiState, commands: &mut Vec<Command>) {
-    let Some(robot) = RobotInFront::of_atlas(&state.atlas) else { return };
+    let atlas = state.atlas.atlas();
+    let Some(robot) = atlas.robots().get(state.atlas.robot) else { return };
     ui.add_space(8.0);
     ui.horizontal_wrapped(|ui| {
-        robot.put_in_run(ui, model, look, commands);
+        PutInRun { world: &atlas.world().name, robot: &robot.name, q: robot.q }.show(ui, model, look, commands);
         let button = LabButton::new("Run from here").show(ui, look);
         if button.on_hover_text("A new run of this world that begins with its robots where they are").clicked() {
             commands.push(Command::Session(SessionCommand::RunFromHere));

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_egui::egui::{Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, pos2, vec2};
 
 use super::torus::torus;
-use crate::window::ui::anatomy::in_front::RobotInFront;
+use crate::window::ui::anatomy::in_front::PutInRun;
 use crate::window::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
 use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::fold::fold;
@@ -75,7 +75,7 @@ pub fn cspace_view(
                 readouts(ui, look, state);
                 next_hint(ui, words, look, state);
                 choices(ui, state);
-                RobotInFront::of_query(&state.anatomy.anatomy).put_in_run(ui, model, look, commands);
+                PutInRun::of_query(&state.anatomy.anatomy).show(ui, model, look, commands);
                 fold(ui, "Guess first", false, |ui| prompts(ui, PromptSeries::Tips, state));
                 crate::window::ui::menu::foot(ui, words, look, state);
             });
@@ -88,7 +88,7 @@ pub fn cspace_view(
                 } else {
                     ui.set_max_width(width);
                     prompts(ui, PromptSeries::Tips, state);
-                    RobotInFront::of_query(&state.anatomy.anatomy).put_in_run(ui, model, look, commands);
+                    PutInRun::of_query(&state.anatomy.anatomy).show(ui, model, look, commands);
                 }
             });
             choices(ui, state);

@@ -1,7 +1,7 @@
 //! The rung of eight intervals: whether a motion is surely free, or surely not.
 //!
 //! A motion in which every part turns at a constant rate, a [`Linkage`], is cut into eight equal intervals, which are
-//! looked at side by side in single precision. In the middle of an interval stand the part's core and the tangents of
+//! examined side by side in single precision. In the middle of an interval stand the part's core and the tangents of
 //! its corners' paths. A point of the core strays from its tangent by at most `A d^2 / 2` within half an interval `d`,
 //! where A bounds its acceleration: so all that the part touches in the interval lies within that of the hull of the
 //! core moved along the tangents, by half an interval to either side. A line that separates this hull from a piece by
@@ -38,10 +38,10 @@ const MARCHED: f64 = 1.0 / 1_048_576.0;
 /// What double precision may round by, in parts of the coordinates in the world, and more.
 const DOUBLE_ROUNDING: f64 = 1e-10;
 
-/// Largest number of stretches that are looked at; with more the ladder is the faster.
-const LOOKS: usize = 16;
+/// Largest number of stretches that are examined; with more the ladder is the faster.
+const MAX_STRETCHES: usize = 16;
 
-/// Largest number of open intervals that are looked at again as one stretch.
+/// Largest number of open intervals that are examined again as one stretch.
 const LONGEST_RUN: u32 = 2;
 
 /// A stretch of a motion's parameter.
@@ -54,18 +54,18 @@ struct Stretch {
 /// Whether a motion is surely free in a scene, or surely not; `None` where it is neither. It says nothing that the
 /// march would not say with its usual budget.
 pub(crate) fn decide(scene: &Scene, linkage: &Linkage) -> Option<bool> {
-    let look = LinkageAmong { scene, outlines: scene.outlines.as_ref()?, linkage };
-    let mut stretches: SmallVec<[Stretch; 2 * LOOKS]> = SmallVec::new();
+    let motion = LinkageAmong { scene, outlines: scene.outlines.as_ref()?, linkage };
+    let mut stretches: SmallVec<[Stretch; 2 * MAX_STRETCHES]> = SmallVec::new();
     stretches.push(Stretch { from: 0.0, width: 1.0 });
     let mut room = SweptPart::EMPTY;
-    for looks in 0..LOOKS {
-        let Some(stretch) = stretches.get(looks).copied() else { return Some(true) };
-        match look.at(stretch, &mut room)? {
+    for examined in 0..MAX_STRETCHES {
+        let Some(stretch) = stretches.get(examined).copied() else { return Some(true) };
+        match motion.at(stretch, &mut room)? {
             LaneAnswer::Contact => return Some(false),
             LaneAnswer::Open(open) => stretches.extend(runs(stretch, open)),
         }
     }
-    (stretches.len() <= LOOKS).then_some(true)
+    (stretches.len() <= MAX_STRETCHES).then_some(true)
 }
 
 /// The stretches that are made of open intervals, given as bits, that follow one another.
@@ -81,7 +81,7 @@ fn runs(of: Stretch, mut open: u32) -> impl Iterator<Item = Stretch> {
     })
 }
 
-/// A motion and the scene that it is looked at in.
+/// A motion and the scene that it is in.
 struct LinkageAmong<'a> {
     scene: &'a Scene,
     outlines: &'a PieceOutlines,
@@ -126,7 +126,7 @@ fn farthest(core: Aabb) -> [f64; 2] {
     [greater(min.x.abs(), max.x.abs()), greater(min.y.abs(), max.y.abs())]
 }
 
-/// Whether a part of this size, with its coordinates from `point`, can be looked at in single precision. False where a
+/// Whether a part of this size, with its coordinates from `point`, can be examined in single precision. False where a
 /// number is NaN.
 fn fits(part: &TurningPart, point: Point2, size: f64) -> bool {
     let TurningPart { heading, turn, core: Aabb { min, max }, radius, .. } = part;
@@ -137,7 +137,7 @@ fn fits(part: &TurningPart, point: Point2, size: f64) -> bool {
         && (min.x + min.y + max.x + max.y).is_finite()
 }
 
-/// A swept part, and what it takes to look at it among pieces.
+/// A swept part, and what it takes to judge it among pieces.
 struct SweptAmong<'a> {
     part: &'a SweptPart,
     /// What its coordinates count from.
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn open_intervals_that_follow_one_another_are_looked_at_in_pairs() {
+    fn open_intervals_that_follow_one_another_are_examined_in_pairs() {
         let stretch = |from: f64, width: f64| Stretch { from, width };
         let of = |open: u32| runs(stretch(0.5, 0.25), open).collect::<Vec<_>>();
         let interval = 0.25 / 8.0;
