@@ -1,6 +1,6 @@
 //! The doors of a pane's world: found under the pointer, and opened and closed.
 
-use bevy_egui::egui::{Button, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetType, vec2};
+use bevy_egui::egui::{Button, RichText, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetType, vec2};
 
 use crate::window::ui::paint::touch::touched;
 use crate::window::ui::{Cockpit, Command};
@@ -98,7 +98,7 @@ pub fn row(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     });
 }
 
-/// Shows a button for each door, in the row that is being laid out, dark where it is closed; of one that is to change,
+/// Shows a button for each door, in the row that is being laid out, framed where it is closed; of one that is to change,
 /// what comes.
 pub fn buttons(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     let world = cockpit.atlas.world();
@@ -106,12 +106,16 @@ pub fn buttons(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
         ui.label("doors");
     }
     let width = if touched(ui) { FINGER } else { 0.0 };
+    // in a row of words they stand on its line
+    ui.spacing_mut().button_padding = vec2(6.0, 0.0);
     for door in &world.doors {
         match to_come(cockpit, door) {
             Some(true) => _ = ui.weak(format!("{} opens", door.name)),
             Some(false) => _ = ui.weak(format!("{} closes", door.name)),
             None => {
-                let button = Button::selectable(!door.open, letter(door)).min_size(vec2(width, 0.0));
+                let colour = if door.open { ui.visuals().hyperlink_color } else { ui.visuals().strong_text_color() };
+                let text = RichText::new(letter(door)).color(colour);
+                let button = Button::selectable(!door.open, text).min_size(vec2(width, 0.0));
                 let button = ui.add(button).on_hover_text(words(door));
                 button.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, words(door)));
                 if button.clicked() {
