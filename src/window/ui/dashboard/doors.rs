@@ -98,8 +98,8 @@ pub fn row(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     });
 }
 
-/// Shows a button for each door, in the row that is being laid out, framed where it is closed; of one that is to change,
-/// what comes.
+/// Shows a button for each door, framed where it is closed, in the row that is being laid out; of one that is to
+/// change, what comes.
 pub fn buttons(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     let world = cockpit.atlas.world();
     if !world.doors.is_empty() {
