@@ -129,7 +129,7 @@ function slide(sliders) {
 function choose({ thick, annulus }) {
   const wanted = [
     thick && [`${(thick[0] * 100).toFixed(1).replace(/\.0$/, "")} cm capsule links`, thick[1], (on) => (lens.set_thick(on), refine())],
-    annulus !== null && ["the points that the tip can reach", annulus, (on) => lens.show_annulus(on)],
+    annulus !== null && ["the tip's reach", annulus, (on) => lens.show_annulus(on)],
   ].filter(Boolean);
   const boxes = $("choices");
   if (boxes.children.length !== wanted.length) {

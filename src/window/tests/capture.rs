@@ -93,7 +93,7 @@ fn every_widget_is_captured_as_it_is_shown() {
     harness.run_steps(20);
     for (word, key, holds) in [
         ("Query", "witness", "Configuration: T2(Tn(["),
-        ("Space", "the points that the tip can reach", "Configuration: T2(Tn(["),
+        ("Space", "the tip's reach", "Configuration: T2(Tn(["),
         ("Atlas", "Measure", "World: Apartment "),
     ] {
         click(&mut harness, word);

@@ -98,9 +98,9 @@ fn one_tip_is_two_points_and_the_annulus_and_the_chart_line_come_on_demand() {
     assert_eq!(lines(&picture, "line"), None);
     let has = |h: &Harness<'_, Lab>, id: &str| anatomy(h).overlay().items.iter().any(|i| i.id == id);
     assert!(!has(&harness, "annulus/outer circle"));
-    click(&mut harness, "the points that the tip can reach");
+    click(&mut harness, "the tip's reach");
     assert!(has(&harness, "annulus/outer circle"));
-    click(&mut harness, "the swept tab's motion");
+    click(&mut harness, "Query's motion");
     assert_eq!(lines(&shown(&harness), "line"), Some(1));
     // a motion over the edge of the square is a line in two pieces
     let state = &mut harness.state_mut().app.world_mut().resource_mut::<Interface>().into_inner().0;

@@ -187,7 +187,7 @@ fn one_thing_is_said_at_the_pointer_and_what_a_robot_in_hand_says_covers_nothing
 fn links_keep_their_places_while_the_run_plays() {
     for size in [WIDE, [1000.0, 700.0], PHONE] {
         let mut harness = lab(size);
-        for (world, last) in [(2, "resume tour"), (0, "close door E")] {
+        for (world, last) in [(2, "nearest points"), (0, "close door E")] {
             interface_mut(&mut harness).settings.world = world;
             harness.run_steps(10);
             let at = |harness: &Harness<'_, Lab>| harness.get_by_label(last).rect().min;

@@ -292,6 +292,9 @@ fn a_planner_of_a_programs_own_is_chosen_and_stepped_where_it_suits_the_robot() 
     harness.get_by_label("Mine").click();
     harness.run_steps(3);
     assert_eq!(plan(&harness).planner().id(), "mine");
+    let list = harness.get_all_by_role(egui::accesskit::Role::ComboBox).nth(2).unwrap().rect().center();
+    pointer(&mut harness, list, None);
+    harness.run_steps(60);
     harness.get_by_label("As the lab's, for arms of two links");
     play(&mut harness);
     harness.get_by_label_contains(" m, proven");

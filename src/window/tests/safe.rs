@@ -114,23 +114,6 @@ fn nothing_fades_while_a_robot_is_in_hand_a_drag_or_a_refusal_is_on() {
     assert_eq!(lit(&harness), None, "a refusal");
 }
 
-#[test]
-fn the_hints_of_each_widget_are_put_away_by_themselves() {
-    let mut harness = lab(WIDE);
-    ui(&mut harness, |ui| ui.settings = Settings::default());
-    click(&mut harness, "Got it");
-    assert!(harness.query_by_label("Try:").is_none());
-    for widget in ["Query", "Space", "Atlas"] {
-        click(&mut harness, widget);
-        harness.get_by_label("Try:");
-    }
-    click(&mut harness, "Got it");
-    click(&mut harness, "Query");
-    harness.get_by_label("Try:");
-    click(&mut harness, "Atlas");
-    assert!(harness.query_by_label("Try:").is_none());
-}
-
 /// Asks for what is refused: `there is no nobody`.
 fn be_refused(harness: &mut Harness<'_, Lab>) {
     let command = SessionCommand::Links { robot: "nobody".into(), links: 3 };

@@ -131,7 +131,7 @@ fn the_configuration_space_is_proven_and_moves_the_arm() {
     let slice = motion_lab_core::cspace::Slice::through(anatomy.checker(), &anatomy.q()).unwrap();
     let mut cells = motion_lab_core::cspace::CellMap::new(slice, 8);
     cells.refine(u32::MAX);
-    let share = format!("proven free {:5.1} %", 100.0 * cells.progress().free);
+    let share = format!("proven free {:.1} %", 100.0 * cells.progress().free);
     assert!(harness.query_by_label_contains(&share).is_none(), "not at once");
     harness.run_steps(20);
     harness.get_by_label_contains(&share);
@@ -208,7 +208,7 @@ fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
     };
     pick(&mut harness, "Rusty");
     harness.get_by_label("x and y: every obstacle is grown by r = 0.11 m");
-    assert!(harness.query_by_label("the points that the tip can reach").is_none());
+    assert!(harness.query_by_label("the tip's reach").is_none());
     pick(&mut harness, "Hitch");
     harness.get_by_label("x and y at \u{3b8} = 0.000");
     let anatomy = |h: &Harness<'_, Lab>| h.state().app.world().resource::<Interface>().0.anatomy.anatomy.clone();
@@ -221,7 +221,7 @@ fn the_three_robots_have_their_spaces_and_the_car_its_slice() {
     assert!(theta > 1.0 && theta < 2.0, "{theta}");
     harness.get_by_label(&format!("x and y at \u{3b8} = {theta:.3}"));
     // the motion of the swept tab, on demand
-    click(&mut harness, "the swept tab's motion");
+    click(&mut harness, "Query's motion");
     assert_eq!(anatomy(&harness).tab, motion_lab_sim::anatomy::Tab::Swept);
 }
 

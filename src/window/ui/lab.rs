@@ -8,7 +8,7 @@ use super::anatomy::in_front::hand_on;
 use super::dashboard::{self, hand::drive};
 use super::keys::{Action, Situation, pressed};
 use super::paint::button::LabButton;
-use super::paint::frame::focus_ring;
+use super::paint::frame;
 use super::paint::icon::Icon;
 use super::paint::style::ScreenTheme;
 use super::time::transport_bar;
@@ -110,8 +110,11 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         dashboard::view::dashboard(ui, model, history, &look, state, commands)
     } else {
         let side = if narrow { 12 } else { 20 };
-        let frame = Frame::NONE.inner_margin(Margin::symmetric(side, if low { 6 } else { 14 }));
-        let panel = CentralPanel::default().frame(frame).show(ui, |ui| match state.widget {
+        if !narrow {
+            frame::sentence(ui, state.widget.text(), side, true, &look, state);
+        }
+        let margins = Frame::NONE.inner_margin(Margin::symmetric(side, if low { 6 } else { 14 }));
+        let panel = CentralPanel::default().frame(margins).show(ui, |ui| match state.widget {
             Widget::Anatomy => anatomy::view::anatomy_view(ui, model, &look, state, commands),
             Widget::Cspace => cspace::view::cspace_view(ui, model, &look, state, commands),
             Widget::Plan => plan::view::plan_view(ui, model, &look, state, commands),
@@ -128,7 +131,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     help::help(ui.ctx(), state);
     capture_form::capture_form(ui.ctx(), model, &look, state, commands);
     super::closing::closing(ui.ctx(), &look, state, commands);
-    focus_ring(ui.ctx(), &look);
+    frame::focus_ring(ui.ctx(), &look);
     state.focus.typing = ui.ctx().text_edit_focused();
     if state.pointer.pointed.is_some() || state.pointer.lit.is_some() {
         // the fade goes on without further input

@@ -66,9 +66,13 @@ pub fn header(
     ui.horizontal(|ui| {
         ui.vertical(|ui| {
             ui.set_max_width((ui.available_width() - room).max(0.0));
-            // what it says of three robots is true of three worlds
-            let is_other = state.widget == Widget::Dashboard && model.cockpits.len() != 3;
-            if is_upright(look) || is_other { frame::name(ui, words, look) } else { frame::title(ui, words, look) }
+            if !look.narrow {
+                frame::name_and_key(ui, words, look, state);
+            } else if is_upright(look) || !is_true_of(model, state) {
+                frame::name(ui, words, look);
+            } else {
+                frame::title(ui, words, look);
+            }
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             fold::menu(ui, "Menu", |ui| menu(ui, model, beside, look, state, commands));
@@ -90,13 +94,19 @@ pub fn menu_button(
     fold::menu(ui, "Menu", |ui| menu(ui, model, &[], look, state, commands));
 }
 
+/// Whether what the widget in front says of the misconception that it removes is true of what it shows: what is said of
+/// three robots is true of three worlds.
+pub fn is_true_of(model: &Dashboard, state: &UiState) -> bool {
+    state.widget != Widget::Dashboard || model.cockpits.len() == 3
+}
+
 /// Whether words stand under the picture, one screen below the other.
 fn is_upright(look: &FrameColours) -> bool {
     look.narrow && !look.low
 }
 
-/// Shows the head of a widget other than the dashboard: title and buttons, colour key and hints. On an upright narrow
-/// screen the key stands under the picture with [`foot`].
+/// Shows the head of a widget other than the dashboard: title, colour key and buttons, on a narrow screen also the
+/// lesson under way. On an upright narrow screen the key stands under the picture with [`foot`].
 pub fn head(
     ui: &mut Ui,
     words: &WidgetText,
@@ -106,11 +116,11 @@ pub fn head(
     commands: &mut Vec<Command>,
 ) {
     header(ui, words, model, look, state, commands);
-    if !is_upright(look) {
-        frame::key_row(ui, words, look, state);
-    }
-    if !look.narrow || state.lesson.is_some() {
-        frame::hints(ui, words, look, state);
+    if look.narrow {
+        if look.low {
+            frame::key_row(ui, words, look, state);
+        }
+        frame::lesson(ui, look, state);
     }
     ui.add_space(6.0);
 }

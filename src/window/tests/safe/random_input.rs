@@ -91,7 +91,7 @@ impl Hands {
 
     /// Does one thing. Returns what.
     fn act(&mut self) -> String {
-        let said = match self.draws.below(20) {
+        let said = match self.draws.below(22) {
             0..=5 => {
                 let (at, modifiers) = (self.somewhere(), self.modifiers());
                 let button = self.pick(&[
@@ -180,6 +180,7 @@ impl Hands {
                 self.harness.event(event);
                 said
             }
+            19 => self.drive(),
             _ => {
                 let frames = 1 + self.draws.below(8) as usize;
                 self.harness.run_steps(frames);
@@ -188,6 +189,20 @@ impl Hands {
         };
         self.harness.step();
         said
+    }
+
+    /// Takes a robot in hand and holds an arrow for some frames: few of the other hands happen to drive.
+    fn drive(&mut self) -> String {
+        let robot = self.pick(&[Key::Num1, Key::Num2, Key::Num3]);
+        let arrow = self.pick(&[Key::ArrowUp, Key::ArrowDown, Key::ArrowLeft, Key::ArrowRight]);
+        self.harness.key_press(robot);
+        self.harness.key_down(arrow);
+        let frames = 1 + self.draws.below(12) as usize;
+        self.harness.run_steps(frames);
+        if self.draws.below(4) > 0 {
+            self.harness.key_up(arrow);
+        }
+        format!("{arrow:?} for {frames} frames with {robot:?} in hand")
     }
 
     /// Asks for something as a screen reader does, of anything.
@@ -242,8 +257,7 @@ fn replays(lab: &Lab) -> bool {
 #[test]
 fn nothing_that_hands_do_stops_the_lab_and_its_run_is_the_same_again() {
     let number = |name: &str, usual: u64| std::env::var(name).map_or(usual, |n| n.parse().expect("a whole number"));
-    let (inputs, seed) = (number("MOTION_LAB_INPUTS", 2000), number("MOTION_LAB_SEED", 5));
-    // of the first five seeds it is the one whose hands drive most
+    let (inputs, seed) = (number("MOTION_LAB_INPUTS", 2000), number("MOTION_LAB_SEED", 1));
     let (mut replayed, mut ticks, mut driven) = (0, 0, 0);
     for n in 0..inputs.div_ceil(INPUTS_OF_A_LAB) {
         let size = [WIDE, PHONE, [820.0, 1180.0], [600.0, 500.0]][n as usize % 4];
@@ -269,7 +283,7 @@ fn nothing_that_hands_do_stops_the_lab_and_its_run_is_the_same_again() {
     }
     println!("{inputs} inputs: {ticks} ticks, {driven} inputs of runs, {replayed} runs simulated again");
     assert!(
-        replayed > 0 && ticks > 0 && (inputs < 2000 || driven > 20),
+        replayed > 0 && ticks > 0 && (inputs < 2000 || driven > 40),
         "hands did little: {ticks} ticks, {driven} inputs, {replayed} runs"
     );
 }

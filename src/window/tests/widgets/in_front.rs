@@ -195,6 +195,6 @@ fn what_is_nearest_is_drawn_where_the_robot_drives() {
         }
         click(&mut harness, "Step");
     }
-    click(&mut harness, "hide the nearest");
+    click(&mut harness, "nearest points");
     assert!(painted(&harness).is_empty());
 }

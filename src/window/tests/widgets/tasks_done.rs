@@ -1,6 +1,7 @@
 //! Tasks are ticked off by what they ask for, and by nothing that only resembles it.
 
 use super::*;
+use motion_lab_sim::manifest::Widget;
 
 fn has_done(harness: &Harness<'_, Lab>, task: &str) -> bool {
     interface(harness).settings.done.iter().any(|done| done == task)
@@ -97,4 +98,30 @@ fn what_moves_in_another_widget_after_a_press_on_its_button_is_no_task_of_query(
     assert_eq!(interface(&harness).anatomy.anatomy.distance(), 0.0);
     press(&mut harness, "Query");
     assert!(!has_done(&harness, "Touch"));
+}
+
+#[test]
+fn the_hints_of_each_widget_are_put_away_by_themselves() {
+    let mut harness = lab(WIDE);
+    interface_mut(&mut harness).settings = crate::window::ui::Settings::default();
+    harness.run_steps(2);
+    click(&mut harness, "Got it");
+    let are_away = |harness: &Harness<'_, Lab>, widget: Widget| {
+        let [first, last] = [widget.text().hints.first(), widget.text().hints.last()].map(|hint| &hint.unwrap().text);
+        let shown = [first, last].map(|text| harness.query_by_label(text).is_some());
+        assert_eq!(shown[0], shown[1], "all of them or none");
+        // where there is no task, the misconception stands
+        assert_eq!(harness.query_by_label(&widget.text().misconception).is_some(), !shown[0], "{widget:?}");
+        !shown[0]
+    };
+    assert!(are_away(&harness, Widget::Dashboard));
+    for widget in [Widget::Anatomy, Widget::Cspace, Widget::Atlas] {
+        click(&mut harness, widget.text().short());
+        assert!(!are_away(&harness, widget), "{widget:?}");
+    }
+    click(&mut harness, "Got it");
+    click(&mut harness, "Query");
+    assert!(!are_away(&harness, Widget::Anatomy));
+    click(&mut harness, "Atlas");
+    assert!(are_away(&harness, Widget::Atlas));
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    ComboBox, DragValue, Id, Label, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
+    ComboBox, DragValue, Id, Label, Response, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
 };
 
 use super::in_front::PutInRun;
@@ -242,18 +242,19 @@ fn any(ui: &mut Ui, state: &mut UiState) {
 }
 
 /// Shows a chooser behind its name.
-pub(crate) fn chooser(ui: &mut Ui, name: &str, list: ComboBox, choices: impl FnOnce(&mut Ui)) {
+pub(crate) fn chooser(ui: &mut Ui, name: &str, list: ComboBox, choices: impl FnOnce(&mut Ui)) -> Response {
     let show = |ui: &mut Ui| {
         let label = ui.label(name);
         let shown = list.show_ui(ui, choices).response.labelled_by(label.id);
         shown.widget_info(|| WidgetInfo::labeled(WidgetType::ComboBox, true, name));
+        shown
     };
     // name and list stay together
     if ui.layout().main_wrap && ui.available_size_before_wrap().x < CHOOSER {
         ui.end_row();
     }
     // in a row that wraps, a row within it would not
-    if ui.layout().main_wrap { show(ui) } else { _ = ui.horizontal(show) }
+    if ui.layout().main_wrap { show(ui) } else { ui.horizontal(show).inner }
 }
 
 /// Shows the choice of robot.
@@ -317,7 +318,7 @@ pub(crate) fn annulus(ui: &mut Ui, state: &mut UiState) {
     }
     let anatomy = &mut state.anatomy.anatomy;
     if anatomy.checker().robot().annulus().is_some() {
-        ui.checkbox(&mut anatomy.show_annulus, "the points that the tip can reach");
+        ui.checkbox(&mut anatomy.show_annulus, "the tip's reach");
     }
 }
 

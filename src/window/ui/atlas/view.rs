@@ -293,7 +293,6 @@ fn put_panel(ui: &mut Ui, state: &mut UiState) {
         ui.label("No robot of the lab lives in this world.");
         return;
     }
-    ui.label(worded(ui, "Click to put the robot there, drag to turn it."));
     for (i, name) in names.iter().enumerate() {
         if names.len() > 1 && ui.radio(atlas.robot == i, name).clicked() {
             atlas.robot = i;

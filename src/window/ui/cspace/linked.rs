@@ -105,13 +105,16 @@ impl<'a> Linked<'a> {
             state.refused = refused;
             ui.ctx().request_repaint();
         }
-        let words = match q {
-            AnyConfiguration::Hitch(_) => "x and y, and beside them the headings".to_owned(),
-            AnyConfiguration::Pose(_) => "x and y, obstacles grown by its radius".to_owned(),
-            AnyConfiguration::T2(_) => "the torus of its angles: edges are one".to_owned(),
+        let (words, at_length) = match q {
+            AnyConfiguration::Hitch(_) => ("x, y, headings".to_owned(), "Its place, and beside it its headings."),
+            AnyConfiguration::Pose(_) => {
+                ("x, y".to_owned(), "Its centre as a point: obstacles are grown by its radius.")
+            }
+            AnyConfiguration::T2(_) => ("a torus".to_owned(), "Its two angles: opposite edges are one."),
             AnyConfiguration::T3(q) => {
                 let [first, second, third] = ["\u{3b8}\u{2081}", "\u{3b8}\u{2082}", "\u{3b8}\u{2083}"];
-                true_minus(&format!("the torus of {second} and {third} at {first} = {:.2}", q.0[0]))
+                let slice = format!("torus of {second} and {third} at {first} = {:.2}", q.0[0]);
+                (true_minus(&slice), "A plane of its three angles: opposite edges are one.")
             }
         };
         let font = TextStyle::Small.resolve(ui.style());
@@ -120,7 +123,8 @@ impl<'a> Linked<'a> {
             _ => format!("{}'s configuration", self.robot.name),
         };
         let title = format!("{whose}: {words}");
-        ui.painter().text(room.min, Align2::LEFT_TOP, title, font, look.colour(Role::Muted));
+        let ink = ui.painter().text(room.min, Align2::LEFT_TOP, title, font, look.colour(Role::Muted));
+        ui.interact(ink, Id::new((&self.robot.name, "its space")), Sense::hover()).on_hover_text(at_length);
         let frame = Stroke::new(1.0, look.colour(Role::Hairline));
         ui.painter().rect_stroke(paper, 0.0, frame, StrokeKind::Inside);
         Some(())

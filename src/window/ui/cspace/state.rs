@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{CellMap, Slice};
+use motion_lab_core::picture::Role;
 use motion_lab_core::robots::ConfigurationError;
 use motion_lab_sim::anatomy::Anatomy;
 use motion_lab_sim::capture::{self, Captured};
@@ -53,6 +54,19 @@ impl CspaceState {
         };
         cells.refine(u32::MAX);
         Ok(capture::cspace(anatomy, &cells, self.trace.clone()))
+    }
+
+    /// How much of the space is known to be what a role of the colour key stands for, in words such as `74.2 %`; `None`
+    /// for other roles, and before any cell has been judged.
+    pub fn share(&self, role: Role) -> Option<String> {
+        let known = self.cells.as_ref()?.map().progress();
+        let share = match role {
+            Role::Free => known.free,
+            Role::Obstacle => known.blocked,
+            Role::Unknown => known.unknown,
+            _ => return None,
+        };
+        Some(format!("{:.1} %", 100.0 * share))
     }
 
     /// Judges more cells, from the start for another robot or scene. Returns whether any remain.

@@ -111,18 +111,20 @@ fn readouts(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
     });
     if let Some(cells) = &state.cspace.cells {
         let p = cells.map().progress();
-        let percent = |x: f64| format!("{:5.1} %", 100.0 * x);
         let muted = |text: String| RichText::new(text).monospace().color(look.colour(Role::Muted));
         // a row ends between two of them, never within one
-        rows_of_words(ui, |ui| {
-            ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-            ui.spacing_mut().item_spacing = vec2(14.0, 0.0);
-            for (name, share) in [("proven free", p.free), ("proven blocked", p.blocked), ("not known", p.unknown)] {
-                ui.label(muted(format!("{name} {}", percent(share))));
-            }
-            ui.label(muted(format!("({} cells judged)", p.judged)));
-        });
-        ui.label(muted(cells.map().slice().described()));
+        if look.narrow {
+            rows_of_words(ui, |ui| {
+                ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
+                ui.spacing_mut().item_spacing = vec2(14.0, 0.0);
+                for entry in &Widget::Cspace.text().key {
+                    let share = state.cspace.share(entry.role());
+                    share.into_iter().for_each(|share| _ = ui.label(muted(format!("{} {share}", entry.text))));
+                }
+            });
+        }
+        let of = ui.label(muted(cells.map().slice().described()));
+        of.on_hover_text(format!("{} cells judged", p.judged));
     }
     if matches!(state.anatomy.anatomy.checker().robot(), AnyRobot::Reach(_)) {
         formulas(ui, "annulus", look, state);
@@ -136,7 +138,7 @@ fn choices(ui: &mut Ui, state: &mut UiState) {
         world_choice(ui, state);
         annulus(ui, state);
         let mut line = state.anatomy.anatomy.tab == Tab::Swept;
-        if ui.checkbox(&mut line, "the swept tab's motion").changed() {
+        if ui.checkbox(&mut line, "Query's motion").changed() {
             state.anatomy.anatomy.tab = if line { Tab::Swept } else { Tab::Distance };
         }
         if state.cspace.cells.as_ref().is_some_and(|cells| cells.map().slice().wraps()) {

@@ -58,14 +58,17 @@ pub fn dashboard(
             .frame(Frame::NONE.inner_margin(margin))
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
+    if has_head {
+        frame::sentence(ui, Widget::Dashboard.text(), side, menu::is_true_of(model, state), look, state);
+    }
     let margin = Margin { top: if has_head { UNDER_HEAD } else { above }, ..Margin::symmetric(side, above) };
     let panel = CentralPanel::default().frame(Frame::NONE.inner_margin(margin)).show(ui, |ui| {
         let has_plots = narrow && state.settings.plots && !state.screen.fills;
         let has_crowd = model.cockpits.iter().any(|cockpit| cockpit.crowd.is_some());
         // in a low room the head stands beside the picture
         let is_beside = look.low && !has_plots && !has_crowd && !model.cockpits.is_empty();
-        if !state.screen.fills && !is_beside {
-            header(ui, model, look, state, commands);
+        if narrow && !state.screen.fills && !is_beside {
+            stage::header(ui, model, look, state, commands);
             ui.add_space(8.0);
         }
         if has_plots {
@@ -105,14 +108,4 @@ pub fn take(action: HandAction, model: &Dashboard, state: &mut UiState, commands
         state.crowd.pick(crowd, Some(crowd.first));
     }
     take_in_hand(cockpit, chosen(cockpit, state), state, commands);
-}
-
-/// Shows the head, on a wide screen the rest of it: title and buttons stand above the plots too.
-fn header(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
-    let words = Widget::Dashboard.text();
-    if look.narrow {
-        return stage::header(ui, model, look, state, commands);
-    }
-    frame::key_row(ui, words, look, state);
-    frame::hints(ui, words, look, state);
 }

@@ -20,7 +20,7 @@ use motion_lab_sim::run::{Quantized, RobotInput};
 use motion_lab_sim::simulation::{RobotCommand, TransportCommand};
 
 /// Height of a robot's words before they have been laid out, points.
-const USUAL: f32 = 150.0;
+const USUAL: f32 = 80.0;
 
 /// Width of a row that has room for a name, who drives, and the scale, points.
 const BOTH: f32 = 390.0;
@@ -156,12 +156,13 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, look: &FrameColours, state: &mut UiStat
     if look.narrow {
         let words = Widget::Dashboard.text();
         ui.add_space(10.0);
-        frame::title(ui, words, look);
-        frame::key_row(ui, words, look, state);
-        // a lesson's task stands above the picture
-        if state.lesson.is_none() {
-            frame::hints(ui, words, look, state);
+        frame::name(ui, words, look);
+        // once a lesson is done it comes with the next hint
+        if !frame::is_done_here(state) || look.low {
+            frame::misconception(ui, words, look);
         }
+        frame::key_row(ui, words, look, state);
+        frame::next_hint(ui, words, look, state);
     }
 }
 
@@ -279,20 +280,10 @@ fn links(
                 put_in(commands, RobotInput::SetTrailer(!on));
             }
         }
-        let why_not = (!robot.manual).then(|| format!("{} is not driven by hand", robot.name));
-        if link(ui, "resume tour", why_not, look, state) {
-            put_in(commands, RobotInput::Release);
-        }
         if !robot.sees.is_empty() {
-            let words = if state.settings.scan { "hide the scan" } else { "show the scan" };
-            if ui.link(words).clicked() {
-                state.settings.scan = !state.settings.scan;
-            }
+            ui.checkbox(&mut state.settings.scan, "scan");
         }
-        let words = if state.settings.nearest { "hide the nearest" } else { "show the nearest" };
-        if ui.link(words).clicked() {
-            state.settings.nearest = !state.settings.nearest;
-        }
+        ui.checkbox(&mut state.settings.nearest, "nearest points");
         // a program's own arm has the links that it has
         let own = [RobotKind::REACH.name, RobotKind::REACH3.name].contains(&robot.kind.as_str());
         if robot.is_arm && own {
@@ -329,6 +320,10 @@ fn links(
                 }
             }
             (None, None) => {}
+        }
+        // behind all else, where it moves nothing as it comes and goes
+        if robot.manual && ui.link("resume tour").clicked() {
+            put_in(commands, RobotInput::Release);
         }
     });
 }

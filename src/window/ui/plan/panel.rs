@@ -79,10 +79,10 @@ pub fn path_buttons(
         if play.on_hover_text("A new run in which the robot drives the path").clicked() {
             commands.push(Command::Session(SessionCommand::PlayPath));
         }
-        if LabButton::new("Save the path").enabled(has_path).show(ui, look).clicked() {
+        if LabButton::new("Save path").enabled(has_path).show(ui, look).clicked() {
             commands.push(Command::Session(SessionCommand::SavePath));
         }
-        let open = LabButton::new("Open a path").show(ui, look);
+        let open = LabButton::new("Open path").show(ui, look);
         if open.on_hover_text("A path, a tree or a roadmap of any planner, as JSON").clicked() {
             commands.push(Command::Session(SessionCommand::OpenPath));
         }
@@ -92,7 +92,7 @@ pub fn path_buttons(
             ui.ctx().copy_text(command);
         }
     });
-    ui.checkbox(&mut plan.over_drive, "draw it over the dashboard too");
+    ui.checkbox(&mut plan.over_drive, "show in Drive");
 }
 
 /// Shows the coordinates of start and goal, which fold away.
@@ -193,8 +193,8 @@ fn planner_choice(ui: &mut Ui, plan: &mut PlanState) {
                 plan.set_planner(name);
             }
         }
-    });
-    ui.label(RichText::new(present.words()).small());
+    })
+    .on_hover_text(present.words());
 }
 
 /// Shows whether the sensor lies, where the planner's robot walks by one.
@@ -224,9 +224,7 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
         ui.label(monospace(format!("{:>6} edges asked {:>6} free", effort.edges, effort.free)));
     }
     match plan.stage() {
-        PlanStage::Growing if effort.iterations == 0 => {
-            _ = ui.label("Drag the start or the goal; play, or go step by step.")
-        }
+        PlanStage::Growing if effort.iterations == 0 => {}
         PlanStage::Growing => _ = ui.label("It grows."),
         PlanStage::Solved => {
             if let Some(PathLengths { length, clearance }) = plan.lengths() {

@@ -202,7 +202,15 @@ fn button(
         TimeAction::Loop => shown.selected(model.looping),
         _ => shown,
     };
-    if shown.show(ui, look).on_hover_text(hint(action)).clicked() {
+    // there is nothing to go on from at the end: the button keeps its place
+    let is_seen = action != TimeAction::Continue || model.tick < model.frontier;
+    let response = ui.scope(|ui| {
+        if !is_seen {
+            ui.set_invisible();
+        }
+        shown.show(ui, look)
+    });
+    if response.inner.on_hover_text(hint(action)).clicked() {
         act(action, model, commands);
     }
 }

@@ -24,7 +24,6 @@ use crate::window::ui::paint::touch::touched;
 use crate::window::ui::paint::{canvas, frame};
 use crate::window::ui::{Cockpit, Command, Dashboard, FrameColours, Grasp, UiState, menu};
 use motion_lab_core::picture::{Picture, Role};
-use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::History;
 pub use places::GAP;
 
@@ -333,9 +332,7 @@ pub fn header(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut U
         ui.add_space((ui.available_size_before_wrap().x - MENU).max(0.0));
         menu::menu_button(ui, model, look, state, commands);
     });
-    if state.lesson.is_some() {
-        frame::hints(ui, Widget::Dashboard.text(), look, state);
-    }
+    frame::lesson(ui, look, state);
 }
 
 /// Shows tabs to choose the cockpit in front. The robot in hand, which would keep its own there, is let go.

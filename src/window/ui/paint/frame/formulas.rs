@@ -41,7 +41,7 @@ pub fn formula(
         let text: String = piece.iter().map(spelled).collect();
         let Some(role) = piece.first().and_then(|term| term.role) else { continue };
         let place = span(&galley, begin..end).translate(rect.min.to_vec2());
-        let term = ui.interact(place, response.id.with(i), Sense::click());
+        let term = ui.interact(place, response.id.with(("term", i)), Sense::click());
         term.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("{text}: {}", role.name())));
         points_at(state, &term, role);
         if state.pointer.over == Some(role) || term.has_focus() {

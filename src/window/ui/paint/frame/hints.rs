@@ -1,79 +1,39 @@
-//! The first hints of a widget, and the lesson under way.
+//! The next of the hints of a widget, and the lesson under way, where a narrow screen has them above and under its
+//! pictures.
 
 use bevy_egui::egui::{
-    Color32, Label, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextStyle, TextWrapMode, Ui, Vec2,
-    WidgetInfo, WidgetType, vec2,
+    Color32, Label, Rect, Response, RichText, Sense, Shape, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo,
+    WidgetType, vec2,
 };
 
 use super::super::touch::worded;
 use super::title::{misconception, rows_of_words};
-use crate::window::ui::keys::{self, SessionAction};
 use crate::window::ui::paint::style::ScreenTheme;
 use crate::window::ui::{FrameColours, LessonState, UiState};
 use motion_lab_core::picture::Role;
 use motion_lab_sim::manifest::{Hint, HintTask, Lesson, Widget, WidgetText};
-
-/// Largest number of hints shown at once.
-const FEW: usize = 4;
 
 /// Side of the box before a hint, points, and the gap after it.
 const BOX: f32 = 10.0;
 const AFTER: f32 = 5.0;
 
 /// Whether a hint can be followed with the robot that the widget in front shows.
-fn suits(hint: &Hint, state: &UiState) -> bool {
+pub(super) fn suits(hint: &Hint, state: &UiState) -> bool {
     !hint.arm || state.anatomy.anatomy.lengths().is_some()
 }
 
-/// Shows what a new reader may try first in the widget in front, until its hints are put away.
-pub fn hints(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiState) {
+/// Whether the lesson under way is shown in the widget in front.
+pub(super) fn is_shown_here(under_way: &LessonState, state: &UiState) -> bool {
     // what ends on the dashboard, such as a world that is run, says there that it is done
-    let leads_on = |under_way: &LessonState| matches!(under_way.lesson.task, HintTask::EditWorld | HintTask::PlayPath);
-    let is_here = |under_way: &LessonState| {
-        let ended = under_way.took.is_some() && state.widget == Widget::Dashboard && leads_on(under_way);
-        under_way.lesson.widget == state.widget || ended
-    };
-    if let Some(under_way) = state.lesson.clone().filter(is_here) {
-        return lesson(ui, &under_way, look, state);
-    }
-    if state.settings.are_hints_away(state.widget) {
-        return;
-    }
-    let (top, least) = (ui.cursor().top(), rows_of_hints(ui, widget));
-    rows_of_words(ui, |ui| {
-        // a hint goes to the next row as a whole
-        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
-        ui.label(RichText::new("Try:").color(look.theme.colour(Role::Text)).strong());
-        let is_done = |hint: &&Hint| state.settings.is_ticked_off(hint.task);
-        let hints: Vec<&Hint> = widget.hints.iter().filter(|hint| suits(hint, state)).collect();
-        let (count, done) = (hints.len(), hints.iter().copied().filter(is_done).count());
-        // before the hints, where no row leaves them alone
-        ui.weak(format!("{done} of {count}"));
-        let hover = format!("Put these hints away: {}", keys::hint(SessionAction::Hints));
-        let is_put_away = ui.link("Got it").on_hover_text(hover).clicked();
-        // of more than fit a row, the one done last and those that come next
-        let last = state.settings.done.iter().rev().find_map(|id| hints.iter().copied().find(|h| h.task.id() == *id));
-        let mut open = 0;
-        let mut begun = None;
-        for hint in hints {
-            let is_done = is_done(&hint);
-            open += usize::from(!is_done);
-            let is_shown = count <= FEW || (if is_done { last == Some(hint) } else { open < FEW });
-            if is_shown && task(ui, &hint.text, is_done, look).on_hover_text("Begin this task").clicked() {
-                begun = Some(Lesson { task: hint.task, widget: state.widget });
-            }
-        }
-        if is_put_away {
-            state.settings.put_hints_away(state.widget);
-        }
-        if let Some(lesson) = begun {
-            state.begin(lesson);
-        }
-    });
-    // what stands below does not move when a hint gives way to a shorter one
-    let missing = top + least + ui.spacing().item_spacing.y - ui.cursor().top();
-    if missing > 0.0 {
-        ui.add_space(missing);
+    let leads_on = matches!(under_way.lesson.task, HintTask::EditWorld | HintTask::PlayPath);
+    let has_ended = under_way.took.is_some() && state.widget == Widget::Dashboard && leads_on;
+    under_way.lesson.widget == state.widget || has_ended
+}
+
+/// Shows the lesson under way, if it is one of the widget in front.
+pub fn lesson(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
+    if let Some(under_way) = state.lesson.clone().filter(|under_way| is_shown_here(under_way, state)) {
+        task_or_learnt(ui, &under_way, look, state);
     }
 }
 
@@ -112,10 +72,11 @@ pub fn next_hint(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &
 
 /// Shows the task of the lesson under way in place of the hints, and in place of the task, once it is done, what was
 /// learnt.
-fn lesson(ui: &mut Ui, under_way: &LessonState, look: &FrameColours, state: &mut UiState) {
+fn task_or_learnt(ui: &mut Ui, under_way: &LessonState, look: &FrameColours, state: &mut UiState) {
     let (top, least) = (ui.cursor().top(), height_of_lesson(ui, under_way));
     rows_of_words(ui, |ui| {
-        let (head, role) = under_way.took.map_or(("Task:".to_owned(), Role::Text), |took| (done_in(took), Role::Free));
+        let (head, role) =
+            under_way.took.map_or(("Task:".to_owned(), Role::Text), |took| (format!("{}:", done_in(took)), Role::Free));
         ui.label(RichText::new(head).color(look.theme.colour(role)).strong());
         let mut is_begun = match under_way.took {
             None => task(ui, under_way.lesson.text(), false, look).clicked(),
@@ -144,8 +105,9 @@ fn lesson(ui: &mut Ui, under_way: &LessonState, look: &FrameColours, state: &mut
     }
 }
 
-fn done_in(seconds: f64) -> String {
-    format!("Done in {seconds:.0} s:")
+/// How long a lesson took, in words.
+pub(super) fn done_in(seconds: f64) -> String {
+    format!("Done in {seconds:.0} s")
 }
 
 /// The height that the words of a lesson take at this width, before it is done or after, whichever is greater.
@@ -172,42 +134,10 @@ fn height_of_lesson(ui: &Ui, under_way: &LessonState) -> f32 {
     };
     let learnt = if under_way.took.is_some() { &under_way.learnt[..] } else { under_way.lesson.learnt() };
     let before = rows("Task:", words(under_way.lesson.text()), &["Again", "All tasks"]);
-    let after = rows(&done_in(under_way.took.unwrap_or(30.0)), words(learnt), &["Next", "Again", "All tasks"]);
+    let after =
+        rows(&format!("{}:", done_in(under_way.took.unwrap_or(30.0))), words(learnt), &["Next", "Again", "All tasks"]);
     let row = ui.text_style_height(&TextStyle::Body) + 2.0;
     before.max(after) as f32 * (row + gap.y)
-}
-
-/// The greatest height that the hints of a widget take at this width, whatever is done of them.
-fn rows_of_hints(ui: &Ui, widget: &WidgetText) -> f32 {
-    let font = TextStyle::Body.resolve(ui.style());
-    let width = |text: &str| ui.painter().layout_no_wrap(text.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x;
-    let gap = ui.spacing().item_spacing;
-    // a point more, for rounding
-    let head = ["Try:", "0 of 0", "Got it"].map(|word| width(word) + gap.x + 1.0).iter().sum();
-    let hints: Vec<f32> = widget.hints.iter().map(|hint| width(&hint.text) + BOX + AFTER + gap.x + 1.0).collect();
-    let rows = max_rows(&hints, head, ui.available_width() + gap.x);
-    let row = ui.text_style_height(&TextStyle::Body) + 2.0;
-    rows as f32 * (row + gap.y) - gap.y
-}
-
-/// The largest number of rows for hints of these widths behind a head, over all that may be done and be done last.
-fn max_rows(hints: &[f32], head: f32, room: f32) -> u32 {
-    let sets = 1_u32 << hints.len().min(10);
-    let is_in = |set: u32, i: usize| set >> i & 1 == 1;
-    let rows = |done: u32, last: Option<usize>| {
-        let (mut rows, mut used, mut open) = (1, head, 0);
-        for (i, hint) in hints.iter().enumerate() {
-            open += usize::from(!is_in(done, i));
-            let is_shown = hints.len() <= FEW || (if is_in(done, i) { last == Some(i) } else { open < FEW });
-            if !is_shown {
-                continue;
-            }
-            (rows, used) = if used + hint > room { (rows + 1, *hint) } else { (rows, used + hint) };
-        }
-        rows
-    };
-    let states = (0..sets).flat_map(|done| (0..=hints.len()).map(move |last| (done, last)));
-    states.map(|(done, last)| rows(done, Some(last).filter(|i| is_in(done, *i)))).max().unwrap_or(1)
 }
 
 /// Shows a hint with a box before it, which is ticked once it has been done.

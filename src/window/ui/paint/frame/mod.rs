@@ -3,9 +3,11 @@
 mod focus_ring;
 mod formulas;
 mod hints;
+mod sentence;
 mod title;
 
 pub use focus_ring::focus_ring;
 pub use formulas::{formula, formulas};
-pub use hints::{hints, is_done_here, next_hint};
-pub use title::{headline, key_row, misconception, name, rests, row_height, rows_of_words, title};
+pub use hints::{is_done_here, lesson, next_hint};
+pub use sentence::sentence;
+pub use title::{headline, key_row, misconception, name, name_and_key, rests, row_height, rows_of_words, title};

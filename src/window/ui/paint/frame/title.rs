@@ -7,7 +7,7 @@ use bevy_egui::egui::{
 use crate::window::ui::paint::style::ScreenTheme;
 use crate::window::ui::{FrameColours, UiState};
 use motion_lab_core::picture::Role;
-use motion_lab_sim::manifest::WidgetText;
+use motion_lab_sim::manifest::{Widget, WidgetText};
 
 /// Shows title and misconception. They do not fade when a role is lit.
 pub fn title(ui: &mut Ui, widget: &WidgetText, look: &FrameColours) {
@@ -22,6 +22,18 @@ pub fn name(ui: &mut Ui, widget: &WidgetText, look: &FrameColours) {
     // the widget's description, for screen readers
     heading.widget_info(|| {
         WidgetInfo::labeled(WidgetType::Label, true, format!("{}. {}", widget.title, widget.description))
+    });
+}
+
+/// Shows the title and beside it the colour key, under it where there is no room.
+pub fn name_and_key(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiState) {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = ui.text_style_height(&TextStyle::Heading) + 2.0;
+        ui.horizontal_wrapped(|ui| {
+            name(ui, widget, look);
+            ui.add_space(12.0);
+            key(ui, widget, look, state);
+        });
     });
 }
 
@@ -55,10 +67,12 @@ fn key(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiStat
     ui.spacing_mut().item_spacing.x = 12.0;
     for entry in &widget.key {
         let role = entry.role();
-        let text = ui.painter().layout_no_wrap(entry.text.clone(), small(ui), look.colour(Role::Text));
+        let share = state.cspace.share(role).filter(|_| state.widget == Widget::Cspace && !look.narrow);
+        let words = share.map_or_else(|| entry.text.clone(), |share| format!("{} {share}", entry.text));
+        let text = ui.painter().layout_no_wrap(words.clone(), small(ui), look.colour(Role::Text));
         let size = vec2(text.size().x + 16.0, text.size().y + 4.0);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("colour key: {}", entry.text)));
+        response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, true, format!("colour key: {words}")));
         swatch(ui, role, rect.left_center() + vec2(5.0, 0.0), look);
         ui.painter().galley(rect.left_center() + vec2(16.0, -0.5 * text.size().y), text, look.colour(Role::Text));
         points_at(state, &response, role);
