@@ -74,12 +74,13 @@ lab("a guess: the box covers no button, and the verdict is in sight and said", "
 
 lab("a tap beside a link among words is one on it, and the page's own links are as large as a finger", "/?tick=20", async (lab) => {
   const { page } = lab;
-  await lab.find("show the scan");
-  const { place } = await lab.find("show the scan");
+  const { place, on } = await lab.find("scan");
+  assert.equal(on, false);
   const { x, y } = await page.locator("#lab").boundingBox();
   assert.ok(place[3] < 30, "it is small");
   await page.touchscreen.tap(x + place[0] + place[2] / 2, y + place[1] - 8);
-  await lab.find("hide the scan");
+  for (let i = 0; i < 100 && !(await lab.find("scan")).on; i++) await page.waitForTimeout(50);
+  assert.equal((await lab.find("scan")).on, true, "it is drawn");
   // the doors' letters stand so far apart that a finger meets the one it means
   const letters = [];
   for (const door of ["A", "B"]) letters.push((await lab.find(`close door ${door}`)).place);

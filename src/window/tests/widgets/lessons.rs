@@ -326,8 +326,7 @@ fn a_hint_begins_its_lesson_and_all_tasks_ends_it() {
         (under_way(&reader.harness).lesson.id().as_str(), interface(&reader.harness).settings.world),
         ("two_elbows", 1)
     );
-    let width = |reader: &Reader, of: &str| reader.harness.get_by_label(of).rect().width();
-    assert!(width(&reader, held.text()) < 30.0, "the other tasks are dots");
+    assert!(reader.harness.get_by_label(held.text()).rect().width() < 30.0, "the other tasks are dots");
     reader.click("One tip, two elbows");
     let start = reader.now();
     while under_way(&reader.harness).took.is_none() {

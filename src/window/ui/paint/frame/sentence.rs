@@ -34,8 +34,8 @@ struct Sentence {
     begins: Option<Lesson>,
 }
 
-/// Shows in a room at the bottom of `ui` the sentence of the widget in front, and beside it a dot for each of its tasks.
-/// The misconception is shown only where it `is_true` of what is in front.
+/// Shows in a room at the bottom of `ui` the sentence of the widget in front, and beside it a dot for each of its
+/// tasks. The misconception is shown only where it `is_true` of what is in front.
 pub fn sentence(ui: &mut Ui, widget: &WidgetText, side: i8, is_true: bool, look: &FrameColours, state: &mut UiState) {
     let under_way = state.lesson.clone().filter(|under_way| is_shown_here(under_way, state));
     let are_hints_shown = !state.settings.are_hints_away(state.widget);
