@@ -21,7 +21,7 @@ use motion_lab::num;
 use motion_lab::random::Seed;
 use motion_lab::recording::Recorder;
 use motion_lab::robots::{AnyRobot, RUSTY};
-use motion_lab::run::{Quantized, Script, WorldChange, WorldEvent};
+use motion_lab::run::{Frame, Log, LogKind, LogWriter, Quantized, Recipe, Script, WorldChange, WorldEvent};
 use motion_lab::sensors::{RangeSensor, Scanner};
 use motion_lab::tour::TourConfig;
 use motion_lab::worlds::{Obstacle, ObstacleKind, World, convex_pieces};
@@ -81,8 +81,8 @@ fn yard(count: usize) -> World {
     }
 }
 
-/// The seconds of a run of 30 s in which this many obstacles are added, the same number in each tick.
-fn adding(count: usize) -> f64 {
+/// A run of 30 s in which this many obstacles are added, the same number in each tick.
+fn adding(count: usize) -> Recipe {
     let world = World::apartment();
     let at = |x: f64| Quantized::try_new(x).expect("a number in range");
     let columns = (count as f64).sqrt().ceil() as usize;
@@ -93,11 +93,21 @@ fn adding(count: usize) -> f64 {
         WorldEvent { tick: 1 + (i * 600 / count) as u64, world: world.name.clone(), change }
     });
     let script = Script::new(vec![], changes.collect());
-    let config = TourConfig { worlds: vec![world.clone()], ticks: 600, sensor: None };
-    seconds(|| {
-        let mut run = Recorder::new(config.clone(), (Seed(1), script.clone())).expect("it starts");
-        (0..600).for_each(|_| _ = black_box(run.step().tick));
-    })
+    Recipe::new(TourConfig { worlds: vec![world.clone()], ticks: 600, sensor: None }, (Seed(1), script))
+}
+
+/// Runs a recipe to its end.
+fn run(recipe: &Recipe, mut tick: impl FnMut(&Frame)) {
+    let mut run = Recorder::of(recipe).expect("it starts");
+    (0..600).for_each(|_| tick(black_box(run.step())));
+}
+
+/// The bytes of the log of a recipe.
+fn log_of(recipe: &Recipe) -> Vec<u8> {
+    let start = Recorder::of(recipe).expect("it starts");
+    let mut writer = LogWriter::new(Vec::new(), recipe, LogKind::Frames, start.frame()).expect("a run");
+    run(recipe, |frame| writer.tick(frame).expect("the next"));
+    writer.finish().expect("a whole run")
 }
 
 /// A star of this many corners.
@@ -160,7 +170,16 @@ fn main() {
         let op = Op::Add { name: "another".into(), shape };
         seconds(|| editor.preview(&op).expect("there is room"))
     });
-    row("a run of 30 s in which so many obstacles are added", &sizes[..3], time, adding);
+    row("a run of 30 s in which so many obstacles are added", &sizes[..3], time, |count| {
+        let recipe = adding(count);
+        seconds(|| run(&recipe, |_| ()))
+    });
+    let megabytes = |bytes: f64| format!("{:.2} MB", bytes / 1e6);
+    row("its log, a file", &sizes[..3], megabytes, |count| log_of(&adding(count)).len() as f64);
+    row("its log, read into memory", &sizes[..3], megabytes, |count| {
+        let (file, mut read) = (log_of(&adding(count)), None);
+        measure(|| read = Some(Log::read_mcap(&file).expect("a log"))).bytes_current as f64
+    });
     row("a star of 10, 100 and 1,000 corners is cut up", &[10, 100, 1_000], time, |count| {
         let outline = star(count);
         seconds(|| convex_pieces(&outline).expect("a simple polygon"))

@@ -209,15 +209,20 @@ fn every_topic_and_field_of_a_log_is_listed() {
     for (topic, cells) in &listed {
         assert_eq!((cells[0].trim_matches('`'), &cells[2][..]), (&written[topic][..], "format 1"), "{topic}");
     }
-    let [first, second] = [
+    let [first, second, third] = [
         fields(include_bytes!("../../../crates/sim/assets/schema/motion_lab.binpb")),
         fields(include_bytes!("../../../crates/sim/assets/schema/motion_lab_2.binpb")),
+        fields(include_bytes!("../../../crates/sim/assets/schema/motion_lab_3.binpb")),
     ];
-    assert!(first.is_subset(&second) && first.len() > 20);
+    assert!(first.is_subset(&second) && second.is_subset(&third) && first.len() > 20);
     let listed = rows("What a log holds", "field");
-    assert_listed(&second, &listed);
+    assert_listed(&third, &listed);
     for (field, cells) in &listed {
-        let since = if first.contains(field) { "format 1" } else { "format 2" };
+        let since = match (first.contains(field), second.contains(field)) {
+            (true, _) => "format 1",
+            (false, true) => "format 2",
+            (false, false) => "format 3",
+        };
         assert_eq!(cells[2], since, "{field}");
     }
 }
@@ -247,7 +252,7 @@ fn every_topic_for_viewers_is_listed_with_its_schema() {
 
 #[test]
 fn every_message_and_field_of_the_schemas_has_a_comment() {
-    for name in ["motion_lab.proto", "motion_lab_2.proto", "foxglove.proto"] {
+    for name in ["motion_lab.proto", "motion_lab_2.proto", "motion_lab_3.proto", "foxglove.proto"] {
         let proto = text(&format!("crates/sim/assets/schema/{name}"));
         let (mut before, mut commented, mut in_enum) = ("", 0, false);
         for line in proto.lines().map(str::trim) {

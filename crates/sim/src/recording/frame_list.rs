@@ -1,6 +1,6 @@
 //! `FrameList`, the frames of a run in memory.
 
-use crate::run::Frame;
+use crate::run::{Frame, ObstacleStates};
 use crate::simulation::size_of_lists;
 
 /// Largest size of the frames of a run that are kept in memory, bytes: that of the largest log file that is read.
@@ -39,9 +39,11 @@ impl FrameList {
     }
 
     fn within(most: u64, frame: &Frame, ticks: u64) -> Result<Self, FramesError> {
-        match size_of(frame).checked_mul(ticks) {
-            Some(bytes) if bytes <= most => Ok(FrameList { frames: Vec::new(), bytes: 0, most }),
-            _ => Err(FramesError { ticks, bytes: size_of(frame) }),
+        // they share their obstacles until these change
+        let bytes = size_of(frame, &frame.obstacles);
+        match bytes.checked_mul(ticks) {
+            Some(all) if all <= most => Ok(FrameList { frames: Vec::new(), bytes: 0, most }),
+            _ => Err(FramesError { ticks, bytes }),
         }
     }
 
@@ -50,7 +52,8 @@ impl FrameList {
     /// # Errors
     /// [`FramesError`], with nothing kept, where frames have grown so that they don't fit.
     pub fn push(&mut self, frame: &Frame) -> Result<(), FramesError> {
-        let bytes = size_of(frame);
+        let none = ObstacleStates::new();
+        let bytes = size_of(frame, self.frames.last().map_or(&none, |last| &last.obstacles));
         if self.bytes.saturating_add(bytes) > self.most {
             return Err(FramesError { ticks: frame.tick, bytes });
         }
@@ -65,10 +68,10 @@ impl FrameList {
     }
 }
 
-/// The memory that a frame takes, bytes.
-fn size_of(frame: &Frame) -> u64 {
+/// The memory that a frame takes, bytes, without what its obstacles share with those of the frame before.
+fn size_of(frame: &Frame, before: &ObstacleStates) -> u64 {
     let scans: usize = frame.scans.iter().map(|scan| size_of_val(scan) + size_of_val(&*scan.ranges)).sum();
-    (std::mem::size_of::<Frame>() + size_of_lists(frame) + scans) as u64
+    (std::mem::size_of::<Frame>() + size_of_lists(frame, before) + scans) as u64
 }
 
 #[cfg(test)]
@@ -79,7 +82,7 @@ mod tests {
     #[test]
     fn as_many_frames_are_kept_as_fit_and_one_more_is_refused() {
         let frame = fixture::frame(1);
-        let one = size_of(&frame);
+        let one = size_of(&frame, &frame.obstacles);
         // three ranges of 8 bytes and two robots, each with three lists of numbers, of a kilobyte at most
         assert!((24 + 2 * 3 * 8..24 + 2 * 1024).contains(&one), "{one} bytes");
         assert!(FrameList::within(4 * one, &frame, 4).is_ok());

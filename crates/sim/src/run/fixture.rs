@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use super::{DT, Event, Frame, Log, Quantized, Recipe, Recorded, RobotInput, RobotScan, RobotState, Script};
+use super::{
+    DT, Event, Frame, Log, ObstacleStates, Quantized, Recipe, Recorded, RobotInput, RobotScan, RobotState, Script,
+};
 use crate::tour::TourConfig;
 use motion_lab_core::configuration::Coordinates;
 use motion_lab_core::geometry::{Aabb, Point2};
@@ -39,7 +41,7 @@ pub fn frame(tick: u64) -> Frame {
         refusals: 1,
     };
     let scan = RobotScan { robot: 0, ranges: [0.0, 1.0 + time, f64::INFINITY].into() };
-    Frame { tick, robots: vec![car, arm], scans: vec![scan], obstacles: vec![] }
+    Frame { tick, robots: vec![car, arm], scans: vec![scan], obstacles: ObstacleStates::new() }
 }
 
 pub fn log() -> Log {

@@ -7,6 +7,11 @@ use motion_lab_core::configuration::Coordinates;
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::short_list::ShortList;
 
+mod obstacle_states;
+
+pub(crate) use obstacle_states::ObstacleDifference;
+pub use obstacle_states::{ObstacleState, ObstacleStates};
+
 /// The length of a tick in seconds: the simulation runs at 20 Hz. Time is tick * DT, never a sum.
 pub const DT: f64 = motion_lab_core::robots::TICK;
 
@@ -56,21 +61,7 @@ pub struct Frame {
     /// names. A robot without a sensor has none.
     pub scans: Vec<RobotScan>,
     /// The obstacles and doors that are not as they were at the start, by ascending world, then number.
-    pub obstacles: Vec<ObstacleState>,
-}
-
-/// An obstacle or a door that is not as it was at the start of the run: added, moved, taken away, opened or closed.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ObstacleState {
-    /// The number of its world in the run's configuration, from 0.
-    pub world: u32,
-    /// Its number in the world, from 0: the obstacles in file order, the doors in file order, then what the script adds
-    /// to the world, in the script's order.
-    pub obstacle: u32,
-    /// Whether it is there; a closed door is, an open one is not.
-    pub present: bool,
-    /// The rigid motion from where it was at first to where it is, metres and radians.
-    pub pose: Pose2,
+    pub obstacles: ObstacleStates,
 }
 
 /// The scan of one range sensor of a robot at the end of a tick.
@@ -108,7 +99,7 @@ impl Frame {
             visit_list(Some(*robot), "ranges.len", "ranges", ranges, visit);
         }
         visit.count_of_obstacles(obstacles.len());
-        for ObstacleState { world, obstacle, present, pose } in obstacles {
+        for ObstacleState { world, obstacle, present, pose } in obstacles.iter() {
             visit.value(None, FrameField::one("obstacle.world"), Value::Count(u64::from(*world)));
             visit.value(None, FrameField::one("obstacle.number"), Value::Count(u64::from(*obstacle)));
             visit.value(None, FrameField::one("obstacle.present"), Value::Flag(*present));

@@ -24,12 +24,14 @@ pub use difference::SetupDifference;
 pub use digest::{Digest, DigestError, RunDigest};
 pub use divergence::{Divergence, DivergingScan, first_divergence};
 pub use field::Value;
-pub use frame::{DT, Frame, ObstacleState, RobotScan, RobotState, seconds};
+pub(crate) use frame::ObstacleDifference;
+pub use frame::{DT, Frame, ObstacleState, ObstacleStates, RobotScan, RobotState, seconds};
 pub use log::{DIGEST_TICKS, Log, LogKind, MAX_ROBOTS_IN_FULL, Recorded, SecondDigests};
 pub(crate) use mcap::check_recordable;
 pub use mcap::{
     DIGEST_FORMAT_VERSION, DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES,
-    GENERATOR, LogError, LogWriter, OtherRun, ReadLog, TICK_NANOSECONDS,
+    FORMAT_VERSION_WITH_MANY_CHANGES, GENERATOR, LogError, LogWriter, MAX_REPEATED_CHANGES, OtherRun, ReadLog,
+    TICK_NANOSECONDS,
 };
 pub use quantized::Quantized;
 pub use recipe::{Recipe, RunInput};

@@ -2,7 +2,7 @@
 
 use bevy::prelude::*;
 
-use crate::run::Frame;
+use crate::run::{Frame, ObstacleStates};
 
 /// The frame of the last tick. It is the simulation's: nobody else makes one or writes one.
 #[derive(Resource, Debug, PartialEq)]
@@ -16,6 +16,6 @@ impl LatestFrame {
 
     /// The frame of no run: tick 0 without robots.
     pub(crate) fn of_no_run() -> Self {
-        LatestFrame(Frame { tick: 0, robots: Vec::new(), scans: Vec::new(), obstacles: Vec::new() })
+        LatestFrame(Frame { tick: 0, robots: Vec::new(), scans: Vec::new(), obstacles: ObstacleStates::new() })
     }
 }

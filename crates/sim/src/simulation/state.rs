@@ -31,7 +31,9 @@ fn snapshot_robots(world: &World, frame: &mut Frame) {
 fn snapshot_rest(world: &World, frame: &mut Frame) {
     frame.tick = world.get_resource::<Transport>().map_or(0, |t| t.tick);
     frame.obstacles.clear();
-    frame.obstacles.extend(world.get_resource::<ObstacleRoster>().into_iter().flat_map(ObstacleRoster::states));
+    if let Some(roster) = world.get_resource::<ObstacleRoster>() {
+        roster.add_states_to(&mut frame.obstacles);
+    }
 }
 
 /// The components of a robot that are its state.

@@ -181,7 +181,8 @@ fn a_run_goes_back_over_its_changes_and_forward_again() {
         assert_eq!(recorder.seek(tick).unwrap(), frame(tick), "{tick}");
     }
     let mut strange = frame(15).clone();
-    strange.obstacles[0].obstacle = 1000;
+    let state = ObstacleState { obstacle: 1000, ..*strange.obstacles.last().unwrap() };
+    strange.obstacles = [state].into_iter().collect();
     let refused = recorder.restore(&strange).unwrap_err().to_string();
     assert!(refused.contains("obstacle 1000 of world 0"), "{refused}");
 }

@@ -27,7 +27,7 @@ fn the_encoding_is_the_documented_words() {
         tick: 9,
         robots: vec![state],
         scans: vec![RobotScan { robot: 7, ranges: [2.5].into() }],
-        obstacles: vec![],
+        obstacles: ObstacleStates::new(),
     };
     let mut bytes = Vec::new();
     frame.encode(&mut bytes);

@@ -1,10 +1,17 @@
 //! The channels of a log, and what names its format.
 
-/// The version of the log format for a run that changes no world. The program reads this one and the next.
+/// The version of the log format for a run that changes no world. The program reads this one and the next two.
 pub const FORMAT_VERSION: &str = "1";
 
 /// The version of the log format for a run whose script changes worlds: frames hold obstacles, inputs name worlds.
 pub const FORMAT_VERSION_WITH_CHANGES: &str = "2";
+
+/// The version of the log format for a run whose script changes worlds more than [`MAX_REPEATED_CHANGES`] times: a frame
+/// holds the obstacles that are not as they were after the tick before.
+pub const FORMAT_VERSION_WITH_MANY_CHANGES: &str = "3";
+
+/// Largest number of changes of a script in whose log each frame repeats all obstacles that are not as at the start.
+pub const MAX_REPEATED_CHANGES: usize = 256;
 
 /// The version of the log format for a log of digests.
 pub const DIGEST_FORMAT_VERSION: &str = "digest 1";

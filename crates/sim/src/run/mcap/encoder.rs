@@ -1,12 +1,12 @@
 //! `Encoder` makes the bytes of a log, piece by piece.
 
+use super::LogError;
 use super::frame_messages::FrameMessages;
 use super::preamble::Preamble;
 use super::record::{DIGESTS, RUN_DIGEST};
 use super::sealer::Sealer;
-use super::{FORMAT_VERSION, LogError};
 use crate::run::log::DIGEST_TICKS;
-use crate::run::{Digest, Frame, LogKind, RunDigest};
+use crate::run::{Digest, Frame, LogKind, ObstacleStates, RunDigest};
 
 /// Largest number of digests in a record: those of a minute.
 pub const MAX_DIGESTS: usize = 60;
@@ -39,7 +39,7 @@ impl Encoder {
         encoder.preamble.put(records)?;
         match &encoder.preamble.initial {
             Some(initial) => {
-                records.channels(encoder.preamble.format() == FORMAT_VERSION)?;
+                records.channels(encoder.preamble.format)?;
                 encoder.messages.put(records, initial)?;
                 encoder.sealer.seal(0)?;
             }
@@ -131,6 +131,11 @@ impl Encoder {
 
     pub fn preamble(&self) -> &Preamble {
         &self.preamble
+    }
+
+    /// The obstacles of the last tick's frame; none in a log of digests.
+    pub fn obstacles(&self) -> &ObstacleStates {
+        self.messages.obstacles()
     }
 
     /// Makes the record of the digests that wait, after the tick of the last, with its seal.

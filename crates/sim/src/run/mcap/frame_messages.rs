@@ -3,8 +3,8 @@
 use super::message::{DigestMessage, FrameMessage, InputMessage, ScanMessage};
 use super::preamble::Preamble;
 use super::record_writer::RecordWriter;
-use super::{LogError, channel};
-use crate::run::{Frame, Script};
+use super::{FORMAT_VERSION_WITH_MANY_CHANGES, LogError, channel};
+use crate::run::{Frame, ObstacleStates, Script};
 
 /// Makes the messages of frames and inputs. Once its buffers have grown, a tick allocates nothing.
 #[derive(Default)]
@@ -18,6 +18,10 @@ pub struct FrameMessages {
     frame: FrameMessage,
     scan: ScanMessage,
     digest: DigestMessage,
+    /// Whether a frame's message has the obstacles that are not as in the frame before, not all.
+    is_by_difference: bool,
+    /// The obstacles of the last frame.
+    obstacles: ObstacleStates,
     encoding: Vec<u8>,
     content: Vec<u8>,
 }
@@ -26,7 +30,13 @@ impl FrameMessages {
     /// Those of a run at its start.
     pub fn new(preamble: &Preamble) -> Self {
         let max_range = preamble.recipe.config.sensor.map(|sensor| sensor.max_range);
-        FrameMessages { max_ranges: preamble.max_ranges(), max_range, ..FrameMessages::default() }
+        let is_by_difference = preamble.format == FORMAT_VERSION_WITH_MANY_CHANGES;
+        FrameMessages { max_ranges: preamble.max_ranges(), max_range, is_by_difference, ..FrameMessages::default() }
+    }
+
+    /// The obstacles of the last frame.
+    pub fn obstacles(&self) -> &ObstacleStates {
+        &self.obstacles
     }
 
     /// Writes the inputs of the script up to `tick` that are not written yet.
@@ -45,7 +55,8 @@ impl FrameMessages {
     /// Writes a frame, its scans and its digest.
     pub fn put(&mut self, records: &mut RecordWriter, frame: &Frame) -> Result<(), LogError> {
         let tick = frame.tick;
-        self.frame.take(frame);
+        self.frame.take(frame, self.is_by_difference.then_some(&self.obstacles));
+        self.obstacles.clone_from(&frame.obstacles);
         records.message(channel::FRAME, tick, &self.frame, &mut self.content)?;
         for (i, scan) in frame.scans.iter().enumerate() {
             self.scan.take(tick, self.max_ranges.get(i).copied().unwrap_or(self.max_range), scan);

@@ -1,5 +1,5 @@
-//! The log's messages: protobuf, as `assets/schema/motion_lab.proto` and, for format 2, `motion_lab_2.proto` describe
-//! them.
+//! The log's messages: protobuf, as `assets/schema/motion_lab.proto` and, for formats 2 and 3, `motion_lab_2.proto` and
+//! `motion_lab_3.proto` describe them.
 //!
 //! A single float is `optional` and several are `repeated`: plain proto3 floats lose the sign of -0.0.
 
@@ -8,7 +8,8 @@ use std::fmt::Write;
 use prost::{Message, Oneof};
 
 use crate::run::{
-    DT, Digest, Event, Frame, ObstacleState, Quantized, RobotInput, RobotScan, RobotState, WorldChange, WorldEvent,
+    DT, Digest, Event, Frame, ObstacleDifference, ObstacleState, ObstacleStates, Quantized, RobotInput, RobotScan,
+    RobotState, WorldChange, WorldEvent,
 };
 use motion_lab_core::geometry::Pose2;
 
@@ -17,6 +18,9 @@ pub const SCHEMA: &[u8] = include_bytes!("../../../assets/schema/motion_lab.binp
 
 /// The compiled schema of format 2.
 pub const SCHEMA_2: &[u8] = include_bytes!("../../../assets/schema/motion_lab_2.binpb");
+
+/// The compiled schema of format 3.
+pub const SCHEMA_3: &[u8] = include_bytes!("../../../assets/schema/motion_lab_3.binpb");
 
 #[derive(Clone, PartialEq, Message)]
 pub struct FrameMessage {
@@ -42,6 +46,9 @@ pub struct ObstacleStateMessage {
     pub present: bool,
     #[prost(double, repeated, tag = "4")]
     pub pose: Vec<f64>,
+    /// Format 3.
+    #[prost(bool, tag = "5")]
+    pub at_start: bool,
 }
 
 #[derive(Clone, PartialEq, Message)]
@@ -162,8 +169,9 @@ pub struct DigestMessage {
 }
 
 impl FrameMessage {
-    /// Overwrites this message with that of a frame, reusing its buffers.
-    pub fn take(&mut self, frame: &Frame) {
+    /// Overwrites this message with that of a frame, reusing its buffers: with all of its obstacles, or with those that
+    /// are not as in the frame before, whose obstacles are `before`.
+    pub fn take(&mut self, frame: &Frame, before: Option<&ObstacleStates>) {
         self.tick = frame.tick;
         // ticks stay below 2^53, so the product is rounded once
         self.time = Some(frame.tick as f64 * DT);
@@ -172,17 +180,18 @@ impl FrameMessage {
             message.take(robot);
         }
         self.obstacles.clear();
-        self.obstacles.extend(frame.obstacles.iter().map(|o| ObstacleStateMessage {
-            world: o.world,
-            obstacle: o.obstacle,
-            present: o.present,
-            pose: vec![o.pose.x, o.pose.y, o.pose.theta],
-        }));
+        match before {
+            Some(before) => {
+                self.obstacles.extend(frame.obstacles.since(before).iter().map(ObstacleStateMessage::since))
+            }
+            None => self.obstacles.extend(frame.obstacles.iter().map(ObstacleStateMessage::of)),
+        }
     }
 
     /// The frame, without its scans; `None` unless there are two control channels that fit 16 bits and each obstacle's
-    /// pose has three numbers.
-    pub fn into_frame(self) -> Option<Frame> {
+    /// pose has three numbers. `before` is what [`take`](Self::take) had; what is the same in `shared`, the obstacles
+    /// of the frame before, is shared.
+    pub fn into_frame(self, before: Option<&ObstacleStates>, shared: &ObstacleStates) -> Option<Frame> {
         let robot = |r: RobotStateMessage| {
             let [first, second] = r.channels[..] else { return None };
             Some(RobotState {
@@ -199,13 +208,44 @@ impl FrameMessage {
             })
         };
         let robots = self.robots.into_iter().map(robot).collect::<Option<Vec<_>>>()?;
-        let obstacle = |o: ObstacleStateMessage| {
-            let [x, y, theta] = o.pose[..] else { return None };
-            let pose = Pose2 { x, y, theta };
-            Some(ObstacleState { world: o.world, obstacle: o.obstacle, present: o.present, pose })
+        let obstacles = match before {
+            Some(before) => {
+                let mut now = before.clone();
+                for obstacle in &self.obstacles {
+                    now.change(obstacle.difference()?);
+                }
+                now
+            }
+            None => {
+                let listed = self.obstacles.iter().map(ObstacleStateMessage::state);
+                listed.collect::<Option<ObstacleStates>>()?.sharing(shared)
+            }
         };
-        let obstacles = self.obstacles.into_iter().map(obstacle).collect::<Option<Vec<_>>>()?;
         Some(Frame { tick: self.tick, robots, scans: Vec::new(), obstacles })
+    }
+}
+
+impl ObstacleStateMessage {
+    fn of(o: &ObstacleState) -> Self {
+        let pose = vec![o.pose.x, o.pose.y, o.pose.theta];
+        ObstacleStateMessage { world: o.world, obstacle: o.obstacle, present: o.present, pose, at_start: false }
+    }
+
+    fn since(difference: &ObstacleDifference) -> Self {
+        let (world, obstacle) = difference.key;
+        let at_start = || ObstacleStateMessage { world, obstacle, at_start: true, ..ObstacleStateMessage::default() };
+        difference.after.as_ref().map_or_else(at_start, ObstacleStateMessage::of)
+    }
+
+    fn state(&self) -> Option<ObstacleState> {
+        let [x, y, theta] = self.pose[..] else { return None };
+        let pose = Pose2 { x, y, theta };
+        Some(ObstacleState { world: self.world, obstacle: self.obstacle, present: self.present, pose })
+    }
+
+    fn difference(&self) -> Option<ObstacleDifference> {
+        let after = if self.at_start { None } else { Some(self.state()?) };
+        Some(ObstacleDifference { key: (self.world, self.obstacle), after })
     }
 }
 

@@ -6,8 +6,11 @@ use serde::Deserialize;
 
 use super::record::{self, Cursor, Record, opcode};
 use super::record_writer::RecordWriter;
-use super::{DIGEST_FORMAT_VERSION, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, GENERATOR, LogError, ReadLog};
-use crate::run::{DT, Frame, LogKind, ObstacleState, Recipe, Script};
+use super::{
+    DIGEST_FORMAT_VERSION, FORMAT_VERSION, FORMAT_VERSION_WITH_CHANGES, FORMAT_VERSION_WITH_MANY_CHANGES, GENERATOR,
+    LogError, MAX_REPEATED_CHANGES, ReadLog,
+};
+use crate::run::{DT, Frame, LogKind, Recipe, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::random::Seed;
 use motion_lab_core::sensors::RangeSensor;
@@ -29,6 +32,8 @@ pub struct Preamble {
     /// The texts of the worlds, in order. They are kept as read, because another version of the program may print a
     /// world differently.
     pub world_texts: Vec<String>,
+    /// The version of the log's format.
+    pub format: &'static str,
 }
 
 /// The run's settings as written in the file. The worlds are named by their attachments.
@@ -82,6 +87,15 @@ fn check_world(index: usize, world: &World, text: &str) -> Result<(), LogError> 
     }
 }
 
+/// The version of the format of the log of a script, with its frames.
+fn format_with_frames(script: &Script) -> &'static str {
+    match script.changes.len() {
+        0 => FORMAT_VERSION,
+        1..=MAX_REPEATED_CHANGES => FORMAT_VERSION_WITH_CHANGES,
+        _ => FORMAT_VERSION_WITH_MANY_CHANGES,
+    }
+}
+
 impl Preamble {
     /// The preamble of a run that this program records.
     pub fn new(recipe: &Recipe, kind: LogKind, initial: &Frame) -> Result<Self, LogError> {
@@ -95,15 +109,18 @@ impl Preamble {
 
     /// The preamble of a log as it was read.
     pub fn of_read(read: &ReadLog) -> Self {
-        let (program, world_texts) = (read.program.clone(), read.world_texts.clone());
-        Preamble { recipe: read.log.recipe.clone(), initial: read.log.initial().cloned(), program, world_texts }
+        let ReadLog { log, program, world_texts, format, .. } = read;
+        let (recipe, initial) = (log.recipe.clone(), log.initial().cloned());
+        Preamble { recipe, initial, program: program.clone(), world_texts: world_texts.clone(), format }
     }
 
     fn of_run(recipe: &Recipe, initial: Option<Frame>) -> Result<Self, LogError> {
         let worlds = &recipe.config.worlds;
+        let format = initial.as_ref().map_or(DIGEST_FORMAT_VERSION, |_| format_with_frames(&recipe.script));
         let preamble = Preamble {
             recipe: recipe.clone(),
             initial,
+            format,
             program: concat!("motion-lab ", env!("CARGO_PKG_VERSION")).to_owned(),
             world_texts: worlds.iter().map(World::to_ron).collect(),
         };
@@ -136,8 +153,7 @@ impl Preamble {
         if !ids_are_right || !scans_are_right {
             return Err(LogError::Robots { tick, robots });
         }
-        let key = |o: &ObstacleState| (o.world, o.obstacle);
-        if !frame.obstacles.is_sorted_by(|a, b| key(a) < key(b))
+        if !frame.obstacles.are_in_order()
             || frame.obstacles.last().is_some_and(|o| o.world as usize >= self.recipe.config.worlds.len())
             || frame.obstacles.iter().any(|o| !o.pose.is_finite())
             || (!frame.obstacles.is_empty() && self.recipe.script.changes.is_empty())
@@ -153,15 +169,6 @@ impl Preamble {
     /// What the log has of the run.
     pub fn kind(&self) -> LogKind {
         if self.initial.is_some() { LogKind::Frames } else { LogKind::Digests }
-    }
-
-    /// The version of the log's format.
-    pub fn format(&self) -> &'static str {
-        match self.kind() {
-            LogKind::Digests => DIGEST_FORMAT_VERSION,
-            LogKind::Frames if self.recipe.script.changes.is_empty() => FORMAT_VERSION,
-            LogKind::Frames => FORMAT_VERSION_WITH_CHANGES,
-        }
     }
 
     /// The greatest range of each scan of the initial frame, metres; `None` for one of a sensor that is not the
@@ -184,7 +191,7 @@ impl Preamble {
         let hashes = self.recipe.config.worlds.iter().enumerate();
         let hashes = hashes.map(|(i, world)| (world_file(i), format!("{:032x}", world.content_hash())));
         [
-            entry("format", self.format().to_owned()),
+            entry("format", self.format.to_owned()),
             entry("program", self.program.clone()),
             entry("seed", self.recipe.seed.to_string()),
             entry("dt", format!("{DT:?}")),
@@ -238,7 +245,7 @@ impl Preamble {
         let entry = |key: &str| metadata.get(key).ok_or_else(|| content(key, "the metadata lacks it"));
         let version = entry("format")?;
         let initial = match version.as_str() {
-            FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES => {
+            FORMAT_VERSION | FORMAT_VERSION_WITH_CHANGES | FORMAT_VERSION_WITH_MANY_CHANGES => {
                 Some(initial.ok_or_else(|| content("/frame", "there is no initial frame"))?)
             }
             DIGEST_FORMAT_VERSION => None,
@@ -267,7 +274,15 @@ impl Preamble {
         let seed = Seed(entry("seed")?.parse().map_err(|_| content("seed", "it is not a whole number below 2^64"))?);
         let config = TourConfig { worlds, ticks: config.ticks, sensor };
         let recipe = Recipe::new(config, (seed, Script::parse(SCRIPT, file(SCRIPT)?)?));
-        let preamble = Preamble { recipe, initial, program: entry("program")?.clone(), world_texts };
+        let format = match (&initial, format_with_frames(&recipe.script)) {
+            (None, _) => DIGEST_FORMAT_VERSION,
+            // logs of before repeat any number of changes
+            (_, FORMAT_VERSION_WITH_MANY_CHANGES) if version == FORMAT_VERSION_WITH_CHANGES => {
+                FORMAT_VERSION_WITH_CHANGES
+            }
+            (_, usual) => usual,
+        };
+        let preamble = Preamble { recipe, initial, program: entry("program")?.clone(), world_texts, format };
         preamble.check()?;
         Ok(preamble)
     }

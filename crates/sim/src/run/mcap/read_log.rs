@@ -13,4 +13,6 @@ pub struct ReadLog {
     /// written before their ends sealed one: then nothing but its frames says that it is this run.
     pub sealed: Option<Digest>,
     pub(super) world_texts: Vec<String>,
+    /// The version of the file's format.
+    pub(super) format: &'static str,
 }

@@ -9,9 +9,12 @@ use super::page::log_bytes;
 use super::preamble::Preamble;
 use super::record::{Cursor, DIGESTS, MAGIC, RUN_DIGEST, Record, SEAL, message, opcode, record_at};
 use super::record_writer::put_seal;
-use super::{DamageKind, DamagedLog, EXPORT_PROFILE, LogError, OtherRun, ReadLog, channel};
+use super::{
+    DamageKind, DamagedLog, EXPORT_PROFILE, FORMAT_VERSION, FORMAT_VERSION_WITH_MANY_CHANGES, LogError, OtherRun,
+    ReadLog, channel,
+};
 use crate::run::log::DIGEST_TICKS;
-use crate::run::{Digest, Frame, Log, Recorded, RunDigest, SecondDigests};
+use crate::run::{Digest, Frame, Log, ObstacleStates, Recorded, RunDigest, SecondDigests};
 
 impl Log {
     /// Reads a log from the bytes of an MCAP file, or of a page that *Save as page* of the lab wrote.
@@ -38,7 +41,7 @@ impl Log {
     pub fn read_mcap_with(file: &[u8], mut on_piece: impl FnMut(u64)) -> Result<ReadLog, LogError> {
         let file = &*log_bytes(file)?;
         let records = first_piece(file)?.map_err(|kind| damaged(None, 0, kind))?;
-        let preamble = Preamble::read(&records, frame_of(&records))?;
+        let preamble = Preamble::read(&records, frame_of(&records, FORMAT_VERSION, &ObstacleStates::new()))?;
         let recipe = preamble.recipe.clone();
         let (start, recorded) = match &preamble.initial {
             Some(initial) => (0, Recorded::Frames { initial: initial.clone(), frames: Vec::new() }),
@@ -49,8 +52,8 @@ impl Log {
                 (start, Recorded::Digests(SecondDigests { start, digests: Vec::new(), ticks: 0, whole: None }))
             }
         };
-        let (program, world_texts) = (preamble.program.clone(), preamble.world_texts.clone());
-        let mut read = ReadLog { log: Log { recipe, recorded }, program, sealed: None, world_texts };
+        let (program, world_texts, format) = (preamble.program.clone(), preamble.world_texts.clone(), preamble.format);
+        let mut read = ReadLog { log: Log { recipe, recorded }, program, sealed: None, world_texts, format };
         let mut encoder = Encoder::begin(preamble, start)?;
         if !file.starts_with(encoder.piece()) {
             let offset = file.iter().zip(encoder.piece()).take_while(|(a, b)| a == b).count();
@@ -131,7 +134,8 @@ fn damaged(recovered: Option<ReadLog>, sealed_bytes: usize, kind: DamageKind) ->
 
 /// Reads the next tick's frame. The bytes at `at` must be exactly the encoding of that frame.
 fn next_tick(file: &[u8], at: usize, encoder: &mut Encoder, run: &mut RunDigest) -> Result<Frame, DamageKind> {
-    let frame = frame_of(&piece(file, at)?).ok_or(DamageKind::Changed)?;
+    let records = piece(file, at)?;
+    let frame = frame_of(&records, encoder.preamble().format, encoder.obstacles()).ok_or(DamageKind::Changed)?;
     encoder.tick(&frame, run).map_err(|_| DamageKind::Changed)?;
     compare(file, at, encoder.piece())?;
     Ok(frame)
@@ -237,14 +241,16 @@ fn is_sealed(file: &[u8], records: &[Record<'_>], tick: u64) -> bool {
     })
 }
 
-/// Decodes the frame in a piece's messages; `None` if there is none or it cannot be decoded.
-fn frame_of(records: &[Record<'_>]) -> Option<Frame> {
+/// Decodes the frame in a piece's messages; `None` if there is none or it cannot be decoded. `before` are the obstacles
+/// of the frame before.
+fn frame_of(records: &[Record<'_>], format: &str, before: &ObstacleStates) -> Option<Frame> {
+    let differs_from = (format == FORMAT_VERSION_WITH_MANY_CHANGES).then_some(before);
     let mut frame = None;
     let mut scans = Vec::new();
     for record in records.iter().filter(|r| r.opcode == opcode::MESSAGE) {
         let (channel, data) = message(record.content)?;
         match channel {
-            channel::FRAME => frame = Some(FrameMessage::decode(data).ok()?.into_frame()?),
+            channel::FRAME => frame = Some(FrameMessage::decode(data).ok()?.into_frame(differs_from, before)?),
             channel::SCAN => scans.push(ScanMessage::decode(data).ok()?.into_scan()),
             _ => {} // inputs and digests follow from the rest
         }

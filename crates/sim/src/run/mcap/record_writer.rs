@@ -10,9 +10,9 @@ use mcap::{WriteOptions, Writer};
 use prost::Message;
 
 use super::channel::{CHANNELS, MEDIA_TYPE, PROFILE};
-use super::message::{SCHEMA, SCHEMA_2};
+use super::message::{SCHEMA, SCHEMA_2, SCHEMA_3};
 use super::record::SEAL;
-use super::{LogError, TICK_NANOSECONDS};
+use super::{FORMAT_VERSION_WITH_CHANGES, FORMAT_VERSION_WITH_MANY_CHANGES, LogError, TICK_NANOSECONDS};
 
 /// The bytes that records were written to and that no piece has taken yet.
 #[derive(Clone, Default)]
@@ -73,10 +73,13 @@ impl RecordWriter {
         self.to.attach(&mcap::Attachment { log_time: 0, create_time: 0, name, media_type, data }).map_err(failed)
     }
 
-    /// Writes the schemas, with their compiled form, and the channels of all messages: those of the first version of
-    /// the format, or of the one with changes of worlds.
-    pub fn channels(&mut self, is_first_version: bool) -> Result<(), LogError> {
-        let compiled = if is_first_version { SCHEMA } else { SCHEMA_2 };
+    /// Writes the schemas, with their compiled form, and the channels of all messages of a version of the format.
+    pub fn channels(&mut self, format: &str) -> Result<(), LogError> {
+        let compiled = match format {
+            FORMAT_VERSION_WITH_CHANGES => SCHEMA_2,
+            FORMAT_VERSION_WITH_MANY_CHANGES => SCHEMA_3,
+            _ => SCHEMA,
+        };
         for (id, (_, schema)) in (1..).zip(CHANNELS) {
             self.to.add_schema_with_id(id, schema, "protobuf", compiled).map_err(failed)?;
         }

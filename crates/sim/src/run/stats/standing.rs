@@ -1,6 +1,8 @@
 //! `StandingScenes`, the worlds of a run as they stand at its frames, for what has no simulator.
 
-use crate::run::{Frame, ObstacleState, Script};
+use std::collections::BTreeSet;
+
+use crate::run::{Frame, ObstacleState, ObstacleStates, Script};
 use crate::tour::TourConfig;
 use motion_lab_core::collision::Scene;
 use motion_lab_core::geometry::Pose2;
@@ -12,7 +14,7 @@ pub(super) struct StandingScenes {
     /// The obstacles that the script adds to each world, in its order.
     added: Vec<Vec<Obstacle>>,
     /// The obstacles that are not as at the start, for which the scenes are made.
-    states: Vec<ObstacleState>,
+    states: ObstacleStates,
     scenes: Vec<Scene>,
 }
 
@@ -26,22 +28,20 @@ impl StandingScenes {
         };
         let added = worlds.iter().map(added).collect();
         let scenes = worlds.iter().map(Scene::of_world).collect();
-        StandingScenes { worlds, added, states: Vec::new(), scenes }
+        StandingScenes { worlds, added, states: ObstacleStates::new(), scenes }
     }
 
     /// Goes on to a frame.
     pub(super) fn follow(&mut self, frame: &Frame) {
-        if self.states == frame.obstacles {
-            return;
-        }
-        for (number, world) in (0_u32..).zip(&self.worlds) {
-            let of = |states: &[ObstacleState]| -> Vec<ObstacleState> {
-                states.iter().filter(|state| state.world == number).copied().collect()
-            };
-            let (old, new) = (of(&self.states), of(&frame.obstacles));
-            let added = self.added.get(number as usize);
-            if let (true, Some(added), Some(scene)) = (old != new, added, self.scenes.get_mut(number as usize)) {
-                *scene = Scene::of_world(&standing(world, added, &new));
+        let since = frame.obstacles.since(&self.states);
+        let changed: BTreeSet<u32> = since.iter().map(|difference| difference.key.0).collect();
+        for number in changed {
+            let at = number as usize;
+            if let (Some(world), Some(added), Some(scene)) =
+                (self.worlds.get(at), self.added.get(at), self.scenes.get_mut(at))
+            {
+                let state = |obstacle: usize| frame.obstacles.get((number, obstacle as u32));
+                *scene = Scene::of_world(&standing(world, added, state));
             }
         }
         self.states.clone_from(&frame.obstacles);
@@ -53,10 +53,9 @@ impl StandingScenes {
     }
 }
 
-/// The world with the obstacles in these states: those of the file, then the added ones; its doors open or closed. What
-/// has no state is as at the start: an obstacle of the file there, an added one not.
-fn standing(world: &World, added: &[Obstacle], states: &[ObstacleState]) -> World {
-    let state = |number: usize| states.iter().find(|state| state.obstacle as usize == number);
+/// The world with its obstacles in the states that `state` has by their numbers: those of the file, then those added;
+/// its doors open or closed. What has no state is as at the start: an obstacle of the file there, an added one not.
+fn standing<'a>(world: &World, added: &[Obstacle], state: impl Fn(usize) -> Option<&'a ObstacleState>) -> World {
     let mut model = World { obstacles: Vec::new(), ..world.clone() };
     for (number, obstacle) in world.obstacles.iter().enumerate() {
         match state(number) {

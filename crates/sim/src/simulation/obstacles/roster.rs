@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use crate::run::{ObstacleState, WorldChange, WorldEvent};
+use crate::run::{ObstacleState, ObstacleStates, WorldChange, WorldEvent};
 use crate::simulation::truth::thing::RunThing;
 use crate::simulation::truth::touched::at_work;
 use crate::simulation::{
@@ -44,8 +44,8 @@ pub(crate) struct WorldObstacles {
     pub(super) start: Arc<WorldModel>,
     pub(super) entries: Vec<RosterEntry>,
     numbers: BTreeMap<String, usize>,
-    /// The numbers of the entries that are not as they were at first.
-    changed: BTreeSet<usize>,
+    /// The states of the entries that are not as they were at first, as frames hold them.
+    changed: ObstacleStates,
     /// The numbers of the entries whose entities are yet to be given their placements.
     pub(super) unshown: BTreeSet<usize>,
     /// Whether the scene is older than the placements.
@@ -62,7 +62,7 @@ impl WorldObstacles {
     /// The ground of a world whose obstacles and doors have these entities, in their order.
     /// [`dress_all`](Self::dress_all) spawns those that are missing or `None`.
     pub(crate) fn new(entity: Entity, number: usize, start: Arc<WorldModel>, entities: &[Option<Entity>]) -> Self {
-        let (changed, unshown, numbers) = (BTreeSet::new(), BTreeSet::new(), BTreeMap::new());
+        let (changed, unshown, numbers) = (ObstacleStates::new(), BTreeSet::new(), BTreeMap::new());
         let mut ground = WorldObstacles {
             entity,
             number,
@@ -224,14 +224,9 @@ pub(crate) fn moved(obstacle: &Obstacle, pose: &Pose2) -> Obstacle {
 }
 
 impl ObstacleRoster {
-    /// The obstacles that are not as they were at the start, as frames hold them.
-    pub(crate) fn states(&self) -> impl Iterator<Item = ObstacleState> + '_ {
-        self.grounds.iter().zip(0..).flat_map(|(ground, world)| {
-            ground.changed.iter().filter_map(move |&number| {
-                let Placement { present, pose } = ground.entries.get(number)?.now;
-                Some(ObstacleState { world, obstacle: number as u32, present, pose })
-            })
-        })
+    /// Appends the states of the obstacles that are not as they were at the start, as frames hold them.
+    pub(crate) fn add_states_to(&self, states: &mut ObstacleStates) {
+        self.grounds.iter().for_each(|ground| states.append(&ground.changed));
     }
 
     /// The number of the world of this name.
@@ -254,11 +249,12 @@ pub(crate) fn with_roster<T>(world: &mut World, work: impl FnOnce(&mut World, &m
 pub(crate) fn place(ground: &mut WorldObstacles, number: usize, placement: Placement) {
     let Some(entry) = ground.entries.get_mut(number).filter(|e| e.now != placement) else { return };
     entry.now = placement;
+    let (world, obstacle, Placement { present, pose }) = (ground.number as u32, number as u32, placement);
     if entry.now == entry.at_first {
-        ground.changed.remove(&number)
+        ground.changed.remove((world, obstacle));
     } else {
-        ground.changed.insert(number)
-    };
+        ground.changed.set(ObstacleState { world, obstacle, present, pose });
+    }
     ground.is_stale = true;
     ground.unshown.insert(number);
 }
@@ -307,7 +303,7 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
                 ground.is_stale |= entry.now.present;
                 world.despawn(entry.entity);
             }
-            ground.changed.split_off(&kept);
+            ground.changed.truncate_before((ground.number as u32, kept as u32));
             wanted.into_iter().skip(kept - file).for_each(|obstacle| ground.add(world, obstacle));
         }
         refresh(world, roster);
@@ -318,9 +314,9 @@ pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
 ///
 /// # Errors
 /// [`RestoreError::Obstacle`], with nothing changed, when the frame has an obstacle that the run does not have.
-pub(crate) fn restore(world: &mut World, tick: u64, states: &[ObstacleState]) -> Result<(), RestoreError> {
+pub(crate) fn restore(world: &mut World, tick: u64, states: &ObstacleStates) -> Result<(), RestoreError> {
     with_roster(world, |world, roster| {
-        for state in states {
+        for state in states.iter() {
             let ground = roster.grounds.get(state.world as usize);
             if ground.is_none_or(|g| state.obstacle as usize >= g.entries.len()) {
                 return Err(RestoreError::Obstacle { tick, world: state.world, obstacle: state.obstacle });
@@ -329,7 +325,8 @@ pub(crate) fn restore(world: &mut World, tick: u64, states: &[ObstacleState]) ->
         for (ground, number) in roster.grounds.iter_mut().zip(0..) {
             let own: BTreeMap<usize, &ObstacleState> =
                 states.iter().filter(|s| s.world == number).map(|s| (s.obstacle as usize, s)).collect();
-            let back: Vec<usize> = ground.changed.iter().copied().filter(|n| !own.contains_key(n)).collect();
+            let back: Vec<usize> =
+                ground.changed.iter().map(|s| s.obstacle as usize).filter(|n| !own.contains_key(n)).collect();
             for number in back {
                 let at_first = ground.entries[number].at_first;
                 place(ground, number, at_first);

@@ -5,7 +5,7 @@ use std::mem::size_of;
 
 use bevy::prelude::*;
 
-use crate::run::{Frame, ObstacleState, RobotState};
+use crate::run::{Frame, ObstacleStates, RobotState};
 
 /// Largest number of keyframes; beyond it every second one is dropped.
 const MAX_KEYFRAMES: usize = 1024;
@@ -36,16 +36,17 @@ impl Default for Keyframes {
 /// The memory that a frame without scans takes, bytes: its lists, and its share of the map's nodes, which may be no
 /// more than half full.
 fn size_of_frame(frame: &Frame) -> usize {
-    size_of_lists(frame) + 3 * size_of::<(u64, Frame)>()
+    size_of_lists(frame, &ObstacleStates::new()) + 3 * size_of::<(u64, Frame)>()
 }
 
-/// The memory that the lists of a frame take, but for its scans, bytes: with what lies on the heap beyond them.
-pub(crate) fn size_of_lists(frame: &Frame) -> usize {
+/// The memory that the lists of a frame take, but for its scans, bytes: with what lies on the heap beyond them, and
+/// without what its obstacles share with those of another frame.
+pub(crate) fn size_of_lists(frame: &Frame, shared: &ObstacleStates) -> usize {
     // lists of up to four numbers need no heap
     let heap = |list: &[f64]| if list.len() > 4 { size_of_val(list) } else { 0 };
     let beyond = |r: &RobotState| heap(&r.configuration) + heap(&r.extra) + heap(&r.target);
     let robots = frame.robots.len() * size_of::<RobotState>() + frame.robots.iter().map(beyond).sum::<usize>();
-    robots + frame.obstacles.len() * size_of::<ObstacleState>()
+    robots + frame.obstacles.bytes_beyond(shared)
 }
 
 impl Keyframes {
@@ -149,7 +150,7 @@ mod tests {
             refusals: 0,
         };
         let scans = vec![RobotScan { robot: 0, ranges: vec![1.0; 360].into() }];
-        Frame { tick, robots: (0..robots).map(state).collect(), scans, obstacles: vec![] }
+        Frame { tick, robots: (0..robots).map(state).collect(), scans, obstacles: ObstacleStates::new() }
     }
 
     fn kept(keyframes: &Keyframes) -> Vec<u64> {

@@ -1,6 +1,6 @@
 //! `Replicas`, many runs of one robot, each alone in its copy of a world, stepped together.
 
-use crate::run::{DT, Frame, RobotInput, RobotScan};
+use crate::run::{DT, Frame, ObstacleStates, RobotInput, RobotScan};
 use crate::simulation::robot::driven::InputTarget;
 use crate::simulation::robot::ops::state_of;
 use crate::simulation::robot::spawn::{SpawnableRobot, routes, slip, tour};
@@ -198,7 +198,7 @@ impl<R: SimulatedRobot> Replicas<R> {
         let Replica { tick, robot: InputTarget { q, mode, extra }, contacts, .. } = &self.replicas[replica];
         let state = state_of(RobotId(0), q, &OwnState::new(extra.clone()), mode, contacts);
         let scan = self.stage.rays.map(|_| RobotScan { robot: 0, ranges: self.ranges(replica).into() });
-        Frame { tick: *tick, robots: vec![state], scans: scan.into_iter().collect(), obstacles: Vec::new() }
+        Frame { tick: *tick, robots: vec![state], scans: scan.into_iter().collect(), obstacles: ObstacleStates::new() }
     }
 
     /// Does work for every replica, with its ranges.

@@ -133,7 +133,7 @@ fn a_beginning_that_is_sealed_but_senseless_is_refused_by_name() {
         Log::read_mcap(&forged(&file, |bytes| replace(bytes, from, to))).expect_err(to).to_string()
     };
     assert!(Log::read_mcap(&forged(&file, |_| {})).is_ok(), "the forger makes good seals");
-    assert!(refused("format\x01\0\0\x001", "format\x01\0\0\x003").contains("format version \"3\""));
+    assert!(refused("format\x01\0\0\x001", "format\x01\0\0\x004").contains("format version \"4\""));
     let other = refused("format\x01\0\0\x001", "format\x01\0\0\x002");
     assert!(other.starts_with("the log was not written by motion-lab"), "format 2 without a change: {other}");
     assert!(refused("ticks: 3", "ticks: x").starts_with("config.ron in the log: "));

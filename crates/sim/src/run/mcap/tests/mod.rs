@@ -1,6 +1,7 @@
 //! Tests of the log as a file: what is written, read, refused and recovered.
 
 mod damage;
+mod many_changes;
 mod peers;
 mod schema;
 mod sealed_digest;

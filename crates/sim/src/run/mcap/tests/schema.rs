@@ -8,14 +8,23 @@ use prost_types::{DescriptorProto, FileDescriptorProto, FileDescriptorSet};
 
 use super::*;
 use crate::run::mcap::message::*;
-use crate::run::{Digest, Event, Quantized, RobotInput};
+use crate::run::{Digest, Event, ObstacleStates, Quantized, RobotInput};
 
-const PROTO: &str = include_str!("../../../../assets/schema/motion_lab.proto");
+/// The schema of each format, as text and compiled.
+const SCHEMAS: [(&str, &[u8]); 3] = [
+    (include_str!("../../../../assets/schema/motion_lab.proto"), SCHEMA),
+    (include_str!("../../../../assets/schema/motion_lab_2.proto"), SCHEMA_2),
+    (include_str!("../../../../assets/schema/motion_lab_3.proto"), SCHEMA_3),
+];
 
-fn file() -> FileDescriptorProto {
-    let mut set = FileDescriptorSet::decode(SCHEMA).unwrap();
+fn file_of(compiled: &[u8]) -> FileDescriptorProto {
+    let mut set = FileDescriptorSet::decode(compiled).unwrap();
     assert_eq!(set.file.len(), 1, "it imports nothing");
     set.file.remove(0)
+}
+
+fn file() -> FileDescriptorProto {
+    file_of(SCHEMA)
 }
 
 fn descriptor(name: &str) -> DescriptorProto {
@@ -56,20 +65,25 @@ fn the_text_and_the_compiled_schema_are_one() {
         };
         format!("{label}{kind} {} = {};", f.name(), f.number())
     };
-    // each message's lines in the text, comments left out
-    let mut text: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    let mut current = String::new();
-    for line in PROTO.lines().map(str::trim).filter(|l| !l.starts_with("//")) {
-        if let Some(name) = line.strip_prefix("message ") {
-            current = name.split_whitespace().next().unwrap().to_owned();
-            text.insert(current.clone(), Vec::new());
-        } else if line.contains(" = ") && line != "syntax = \"proto3\";" {
-            text.get_mut(&current).unwrap().push(line.to_owned());
+    for (proto, compiled) in SCHEMAS {
+        // each message's lines in the text, comments left out
+        let mut text: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        let mut current = String::new();
+        for line in proto.lines().map(str::trim).filter(|l| !l.starts_with("//")) {
+            if let Some(name) = line.strip_prefix("message ") {
+                current = name.split_whitespace().next().unwrap().to_owned();
+                text.insert(current.clone(), Vec::new());
+            } else if line.contains(" = ") && line != "syntax = \"proto3\";" {
+                text.get_mut(&current).unwrap().push(line.to_owned());
+            }
         }
+        let compiled: BTreeMap<String, Vec<String>> = file_of(compiled)
+            .message_type
+            .iter()
+            .map(|m| (m.name().to_owned(), m.field.iter().map(words).collect()))
+            .collect();
+        assert_eq!(compiled, text, "compile the text again: see its first lines");
     }
-    let compiled: BTreeMap<String, Vec<String>> =
-        file().message_type.iter().map(|m| (m.name().to_owned(), m.field.iter().map(words).collect())).collect();
-    assert_eq!(compiled, text, "compile the text again: see its first lines");
 }
 
 /// Walks encoded bytes by the descriptor alone and notes every field met. Fails on a field that the descriptor lacks or
@@ -125,7 +139,7 @@ fn what_is_written_is_what_the_schema_says() {
     }
     let mut met = BTreeMap::new();
     let mut frame_message = FrameMessage::default();
-    frame_message.take(&frame);
+    frame_message.take(&frame, None);
     frame.scans[0].robot = 1;
     let mut scan_message = ScanMessage::default();
     scan_message.take(7, Some(4.0), &frame.scans[0]);
@@ -172,9 +186,9 @@ fn every_number_survives_a_message_bit_for_bit() {
     frame.robots[0].extra = numbers.into_iter().collect();
     frame.scans.clear();
     let mut message = FrameMessage::default();
-    message.take(&frame);
+    message.take(&frame, None);
     let bytes = message.encode_to_vec();
-    let back = FrameMessage::decode(&bytes[..]).unwrap().into_frame().unwrap();
+    let back = FrameMessage::decode(&bytes[..]).unwrap().into_frame(None, &ObstacleStates::new()).unwrap();
     assert_eq!(first_divergence(&[frame], &[back]), None);
     for x in numbers {
         let scan = ScanMessage { tick: 0, robot: 0, max_range: Some(x), ranges: vec![x] };
