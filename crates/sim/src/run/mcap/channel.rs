@@ -6,8 +6,8 @@ pub const FORMAT_VERSION: &str = "1";
 /// The version of the log format for a run whose script changes worlds: frames hold obstacles, inputs name worlds.
 pub const FORMAT_VERSION_WITH_CHANGES: &str = "2";
 
-/// The version of the log format for a run whose script changes worlds more than [`MAX_REPEATED_CHANGES`] times: a frame
-/// holds the obstacles that are not as they were after the tick before.
+/// The version of the log format for a run whose script changes worlds more than [`MAX_REPEATED_CHANGES`] times: a
+/// frame holds the obstacles that are not as they were after the tick before.
 pub const FORMAT_VERSION_WITH_MANY_CHANGES: &str = "3";
 
 /// Largest number of changes of a script in whose log each frame repeats all obstacles that are not as at the start.
