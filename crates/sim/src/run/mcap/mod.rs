@@ -22,9 +22,9 @@
 //! half of the run's digest so far. The record of the run's digest has opcode 0x82 and holds its 128 bits. A digest
 //! record before the last of a log has 60 digests.
 //!
-//! In a log of more than [`MAX_REPEATED_CHANGES`] changes of worlds a frame holds the obstacles that are not as they were
-//! after the tick before: its format is [`FORMAT_VERSION_WITH_MANY_CHANGES`]. Such logs of before are of the format of
-//! fewer changes, and are read as ever. The digests are of whole frames in both.
+//! In a log of more than [`MAX_REPEATED_CHANGES`] changes of worlds a frame holds the obstacles that are not as they
+//! were after the tick before: its format is [`FORMAT_VERSION_WITH_MANY_CHANGES`]. Such logs of before are of the
+//! format of fewer changes, and are read as ever. The digests are of whole frames in both.
 //!
 //! Logs with frames of before had no digest in their end, and are read as ever. The digest covers what the frames do
 //! not tell, such as a range that no ray has reached. Whoever can seal a file again can compute it, too.
