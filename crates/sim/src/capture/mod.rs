@@ -32,7 +32,7 @@ mod tour_figure;
 pub use captured::{CaptureForm, Captured, Note, Paper, TICK_HUNDREDTHS};
 pub use chart::MAX_LINES;
 pub use costs::{CostCurve, CostFigure, costs};
-pub use distributions::{ByValue, Distribution, Quartiles, boxes, histograms};
+pub use distributions::{ByValue, ConfidenceInterval, Distribution, Quartiles, boxes, histograms};
 pub use error::CaptureError;
 pub use film::Film;
 pub use moving::{CaptureSpan, Subject, at_tick, at_tick_with_robots};
