@@ -53,4 +53,4 @@ pub use row::{RowValue, RunRow};
 pub use shard::{Shard, ShardError};
 pub use study::{RunInputs, RunSetup, Study, VariedAxis};
 pub use study_file::StudyFile;
-pub use table::{TableError, TableFile, TableWriter};
+pub use table::{TableError, TableFile, TableWriter, VerifiedTable};

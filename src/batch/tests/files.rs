@@ -95,17 +95,103 @@ fn a_table_comes_back_row_by_row() {
         .collect();
     let mut writer = TableWriter::new(Vec::new(), &study).unwrap();
     rows.iter().for_each(|row| writer.row(row.clone()).unwrap());
-    let file = tempfile::NamedTempFile::new().unwrap();
-    std::fs::write(file.path(), writer.finish().unwrap()).unwrap();
-    let table = TableFile::open(file.reopen().unwrap()).unwrap();
-    assert_eq!(table.study().line(), study.line());
+    let bytes = writer.finish().unwrap();
+    let opened = || opened(&bytes).unwrap();
+    assert_eq!(opened().study().line(), study.line());
     let mut seen = Vec::new();
-    table.each(|row| seen.push(row)).unwrap();
+    assert_eq!(opened().each(|row| seen.push(row)).unwrap(), 500);
     assert_eq!(seen, rows);
-    assert_eq!(table.row(499).unwrap(), rows[499]);
-    assert!(matches!(table.row(500), Err(TableError::NoRow { row: 500, rows: 500 })));
-    std::fs::write(file.path(), b"PAR1 and nothing else").unwrap();
-    assert!(TableFile::open(file.reopen().unwrap()).is_err());
+    assert_eq!(opened().row(499).unwrap(), rows[499]);
+    assert!(matches!(opened().row(500), Err(TableError::NoRow { row: 500, rows: 500 })));
+    assert!(TableFile::open(on_disk(b"PAR1 and nothing else")).is_err());
+}
+
+/// Bytes as a file.
+fn on_disk(bytes: &[u8]) -> std::fs::File {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    std::fs::write(file.path(), bytes).unwrap();
+    file.reopen().unwrap()
+}
+
+fn opened(bytes: &[u8]) -> Result<TableFile<std::fs::File>, TableError> {
+    TableFile::open(on_disk(bytes))
+}
+
+/// A table of these lengths of paths.
+fn table_of(study: &Study, lengths: &[f64]) -> Vec<u8> {
+    let at = study.columns().iter().position(|column| column.name == "path_m").unwrap();
+    let mut writer = TableWriter::new(Vec::new(), study).unwrap();
+    for (row, length) in (0..).zip(lengths) {
+        let mut made = study.failed(row, "");
+        made.cells[at] = RowValue::Number(*length);
+        writer.row(made).unwrap();
+    }
+    writer.finish().unwrap()
+}
+
+/// Where a text stands in bytes for the last time.
+fn last_place(bytes: &[u8], text: &str) -> usize {
+    bytes.windows(text.len()).rposition(|window| window == text.as_bytes()).unwrap()
+}
+
+#[test]
+fn no_flipped_bit_of_a_table_changes_a_value_unseen() {
+    let study =
+        study("Sweep(version: 1, warehouse: (robots: 1, seed: 1), axes: [(vary: \"seed\", over: Range(0, 3))])");
+    let whole = table_of(&study, &[0.5, 2.0, 3.25]);
+    let about = VerifiedTable::of(on_disk(&whole)).unwrap();
+    assert_eq!(about.rows, 3);
+    let read = |bytes: &[u8]| -> Result<(String, Vec<RunRow>), TableError> {
+        let table = opened(bytes)?;
+        let (line, mut rows) = (table.study().line().to_owned(), Vec::new());
+        table.each(|row| rows.push(row)).map(|_| (line, rows))
+    };
+    let own = read(&whole).unwrap();
+    let (mut refused, mut harmless) = (0, 0);
+    for at in 0..whole.len() {
+        let mut changed = whole.clone();
+        changed[at] ^= 1 << (at % 8);
+        match (read(&changed), VerifiedTable::of(on_disk(&changed))) {
+            (Err(_), Err(_)) => refused += 1,
+            // such as a name of the program that wrote it, or a bound of a column that nobody asks for
+            (Ok(read), Ok(verified)) => {
+                harmless += 1;
+                assert!(read == own && verified == about, "byte {at} of {}", whole.len());
+            }
+            // the study is read anew only where the table is a sweep's
+            (read, verified) => panic!("byte {at}: {:?}, {verified:?}", read.map(|_| ())),
+        }
+    }
+    assert!(refused > 2 * harmless && refused > 1000, "{refused} {harmless}");
+}
+
+#[test]
+fn a_seal_is_of_the_values_in_their_order_and_of_the_study() {
+    let studies = ["0, 3", "1, 4"].map(|range| {
+        study(&format!("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range({range}))])"))
+    });
+    let lengths = [[1.0, 2.0, 3.0], [2.0, 1.0, 3.0], [1.0, 2.0, 3.0000000000000004], [1.0, 2.0, -0.0]];
+    let tables: Vec<Vec<u8>> = lengths.iter().map(|lengths| table_of(&studies[0], lengths)).collect();
+    let seal = |table: &[u8]| VerifiedTable::of(on_disk(table)).unwrap().seal.to_string();
+    let seals: Vec<String> =
+        tables.iter().map(|table| seal(table)).chain([seal(&table_of(&studies[1], &lengths[0]))]).collect();
+    for (i, own) in seals.iter().enumerate() {
+        assert!(!seals[..i].contains(own), "{i}");
+    }
+    // the same rows have the same seal, whoever writes them
+    assert_eq!(seals[0], seal(&table_of(&studies[0], &lengths[0])));
+    // the seal of another order of the same values
+    let mut exchanged = tables[0].clone();
+    let at = last_place(&exchanged, &seals[0]);
+    exchanged[at..at + 32].copy_from_slice(seals[1].as_bytes());
+    assert!(matches!(opened(&exchanged).unwrap().each(|_| ()), Err(TableError::Seal)));
+    assert!(matches!(opened(&exchanged).unwrap().row(0), Err(TableError::Seal)));
+    // a table without one, as one whose key was changed
+    let mut without = tables[0].clone();
+    let at = last_place(&without, "motion-lab.seal");
+    without[at] = b'M';
+    assert!(matches!(opened(&without).err(), Some(TableError::NoSeal)));
+    assert!(matches!(VerifiedTable::of(on_disk(&without)), Err(TableError::NoSeal)));
 }
 
 #[test]

@@ -146,3 +146,58 @@ fn a_goal_that_lies_in_one_of_the_worlds_is_refused_in_the_rows_of_the_other() {
     let said = "R: the goal (7, 1) lies outside the world, which reaches from (0, 0) to (4, 4)";
     assert_eq!(rows.iter().map(|row| row.contains(said)).collect::<Vec<_>>(), [true, false], "{table}");
 }
+
+#[test]
+fn a_table_with_a_flipped_bit_is_refused_whoever_reads_it() {
+    let folder = folder_with(STUDY);
+    let at = folder.path();
+    run_in(at, &["sweep", "plan.ron", "-o", "parts"]).done();
+    run_in(at, &["sweep", "merge", "parts", "-o", "all.csv", "-o", "all.parquet"]).done();
+    let said = run_in(at, &["sweep", "verify", "all.parquet", "parts/part-1-of-1.sweep"]).done();
+    assert_eq!(said.matches("3 rows, as they were sealed").count(), 2, "{said}");
+    let same = run_in(at, &["sweep", "verify", "all.parquet", "--csv", "all.csv"]).done();
+    assert_eq!(same, "3 rows, the same in both and as they were sealed\n");
+    // the last digit of a digest, as a value stands in the file
+    let table = fs::read(at.join("all.parquet")).unwrap();
+    let csv = fs::read_to_string(at.join("all.csv")).unwrap();
+    let (heading, row) = csv.split_once('\n').unwrap();
+    let digest = heading.split(',').position(|name| name == "digest").unwrap();
+    let digest = row.split(',').nth(digest).unwrap();
+    assert_eq!(digest.len(), 32);
+    let place = table.windows(32).position(|bytes| bytes == digest.as_bytes()).unwrap();
+    let mut flipped = table.clone();
+    flipped[place + 31] ^= 1;
+    fs::write(at.join("flipped.parquet"), &flipped).unwrap();
+    for arguments in [
+        &["sweep", "verify", "flipped.parquet"][..],
+        &["sweep", "verify", "flipped.parquet", "--csv", "all.csv"],
+        &["sweep", "report", "flipped.parquet", "-o", "page.html"],
+        &["sweep", "reproduce", "flipped.parquet", "--row", "1", "-o", "again.mcap"],
+    ] {
+        let refused = run_in(at, arguments).failed(3);
+        assert!(refused.contains("flipped.parquet: it is damaged: its seal is not that of its rows"), "{refused}");
+        assert!(refused.contains("`sweep merge`"), "{refused}");
+    }
+    assert!(!at.join("page.html").exists() && !at.join("again.mcap").exists());
+    // a line of the table for others: another digit, one too many, one too few
+    let last = csv.trim_end().rfind('\n').unwrap() + 1;
+    for (text, line) in [
+        (csv.replacen(&digest[..31], &format!("{}x", &digest[..30]), 1), "line 2"),
+        (format!("{csv}\n"), "line 5"),
+        (csv[..last].to_owned(), "line 4"),
+        (csv.replacen("seed", "Seed", 1), "line 1"),
+    ] {
+        fs::write(at.join("other.csv"), text).unwrap();
+        let differs = run_in(at, &["sweep", "verify", "all.parquet", "--csv", "other.csv"]);
+        assert_eq!(
+            (differs.code, &*differs.out),
+            (Some(4), &*format!("other.csv: {line} is not as all.parquet has it\n"))
+        );
+    }
+    let alone = run_in(at, &["sweep", "verify", "all.csv"]).failed(3);
+    assert!(alone.contains("--csv"), "{alone}");
+    // a part has a seal of its own
+    let part = fs::read_to_string(at.join("parts/part-1-of-1.sweep")).unwrap();
+    fs::write(at.join("damaged.sweep"), part.replacen(digest, &digest.replace(&digest[..1], "x"), 1)).unwrap();
+    run_in(at, &["sweep", "verify", "damaged.sweep"]).failed(3);
+}

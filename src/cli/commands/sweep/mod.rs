@@ -12,6 +12,7 @@ mod report;
 mod reproduce;
 mod shard;
 mod shards;
+mod verify;
 
 pub use keep::Keep;
 use std::path::{Path, PathBuf};
@@ -23,6 +24,7 @@ use merge::Merge;
 use report::Report;
 use reproduce::Reproduce;
 use shards::ShardChoice;
+use verify::VerifyTables;
 
 /// Run a study's runs, a row for each: what was varied, where robots ended, contacts, clearance, path, digest.
 ///
@@ -74,6 +76,7 @@ enum SweepCommand {
     Merge(Merge),
     Report(Report),
     Reproduce(Reproduce),
+    Verify(VerifyTables),
 }
 
 impl SweepArgs {
@@ -83,6 +86,7 @@ impl SweepArgs {
             (Some(SweepCommand::Merge(merge)), _) => merge.run(data),
             (Some(SweepCommand::Report(report)), _) => report.run(data),
             (Some(SweepCommand::Reproduce(reproduce)), _) => reproduce.run(data),
+            (Some(SweepCommand::Verify(verify)), _) => verify.run(data),
             (None, None) => Err(Failure::usage("no study", "Name a study: motion-lab sweep STUDY.")),
             (None, Some(file)) => {
                 let study = load::study(&file)?;

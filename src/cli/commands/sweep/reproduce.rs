@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::merge;
 use super::one::{again, log_name};
+use super::verify;
 use crate::cli::support::input::open;
 use crate::cli::support::interrupt;
 use crate::cli::support::target::Target;
@@ -35,23 +36,14 @@ pub struct Reproduce {
 
 /// The study and a row of a table or a part.
 fn find(file: &Path, number: u64) -> Result<(Study, RunRow), Failure> {
-    let no_row = |error: TableError| {
-        let next = match &error {
-            TableError::NoRow { .. } => "Give the number of a row that is there.",
-            _ => "Name a table that `sweep merge` wrote.",
-        };
-        Failure::input(format!("{}: {error}", file.display()), next)
-    };
+    let refused = |error: TableError| verify::refused(file, &error);
     match file.extension().and_then(|ending| ending.to_str()) {
         Some("parquet") => {
-            let table = TableFile::open(open(file)?).map_err(no_row)?;
-            let row = table.row(number).map_err(no_row)?;
-            Ok((table.study().clone(), row))
+            let table = TableFile::open(open(file)?).map_err(refused)?;
+            let study = table.study().clone();
+            Ok((study, table.row(number).map_err(refused)?))
         }
-        Some("csv") => Err(Failure::input(
-            format!("{}: a table of comma-separated values does not hold its study", file.display()),
-            "Name the table that ends in .parquet, or a part.",
-        )),
+        Some("csv") => Err(verify::has_no_study(file)),
         _ => {
             let refused = |error: PartError| merge::refused(file, &error);
             let mut reader = PartReader::new(BufReader::new(open(file)?)).map_err(refused)?;

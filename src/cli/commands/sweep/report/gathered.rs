@@ -5,6 +5,7 @@ use std::path::Path;
 use crate::batch::{Column, RowValue, RunRow, Study, TableError, TableFile, VariedAxis};
 use crate::capture::{ByValue, Captured, Distribution, boxes, histograms};
 use crate::cli::Failure;
+use crate::cli::commands::sweep::verify;
 use crate::cli::support::input::open;
 use crate::cli::support::words::counted;
 
@@ -96,17 +97,9 @@ impl Gathered {
     /// What the table in a file says.
     pub fn of(file: &Path) -> Result<Self, Failure> {
         if file.extension().is_some_and(|ending| ending == "csv") {
-            return Err(Failure::input(
-                format!("{}: a table of comma-separated values does not hold its study", file.display()),
-                "Name the table that ends in .parquet; `sweep merge` writes both.",
-            ));
+            return Err(verify::has_no_study(file));
         }
-        let refused = |error: TableError| {
-            Failure::input(
-                format!("{}: {error}", file.display()),
-                "Name a table that ends in .parquet and that `sweep merge` wrote.",
-            )
-        };
+        let refused = |error: TableError| verify::refused(file, &error);
         let table = TableFile::open(open(file)?).map_err(refused)?;
         let study = table.study().clone();
         let columns = study.columns();
@@ -116,7 +109,7 @@ impl Gathered {
         let (mut values, mut ended) = (vec![Vec::new(); axes.len()], Vec::new());
         let mut results: Vec<Distribution> =
             shown.iter().map(|column| Distribution { name: title(column), values: Vec::new() }).collect();
-        let (mut rows, mut failed) = (0, 0);
+        let mut failed = 0;
         let (mut worst, mut failures): (Vec<RunRow>, Vec<RunRow>) = (Vec::new(), Vec::new());
         // worst first; of equals the one of the lesser number
         let badness = |row: &RunRow| {
@@ -127,9 +120,8 @@ impl Gathered {
             let ((contacts, clearance), (others, other)) = (badness(a), badness(b));
             others.total_cmp(&contacts).then(clearance.total_cmp(&other)).then(a.row.cmp(&b.row))
         };
-        table
+        let rows = table
             .each(|row| {
-                rows += 1;
                 for (result, column) in results.iter_mut().zip(&shown) {
                     result.values.push(number(row.cell(columns, &column.name)).unwrap_or(f64::NAN));
                 }
