@@ -148,6 +148,7 @@ pub(super) fn columns(
     }
     columns.extend([
         column("failure", Text, "", "why it could not be run, or what failed in it; empty if nothing"),
+        column("failure_kind", Text, "", "what sort of failure that is, of few; empty if none"),
         column("contacts", Whole, "", "contact episodes of all robots"),
         column("first_contact", Number, "s", "when a robot was first in contact; empty if never"),
         column("least_clearance", Number, "m", "least distance of a robot from an obstacle; empty without any"),

@@ -1,6 +1,7 @@
 //! `RowGatherer`, which makes a row of a run while it goes on.
 
 use super::columns::RobotColumns;
+use super::failure_kind::{FailureKind, RunFailure};
 use super::row::{RowValue, RunRow};
 use super::study::Study;
 use motion_lab_core::configuration::RobotKind;
@@ -61,17 +62,24 @@ impl<'a> RowGatherer<'a> {
         let RowGatherer { study, row, residents, stats, goal } = self;
         let stats = stats.stats().robots;
         let failure = match (refusals.first(), &goal) {
-            (Some(first), _) => format!("{} inputs were refused, the first at {first}", refusals.count()),
-            (None, Some(goal)) if goal.first.is_none() => "the goal was not reached".into(),
-            (None, None) if study.goal().is_some() => "the goal's robot is not in this run".into(),
-            _ => String::new(),
+            (Some(first), _) => {
+                let reason = format!("{} inputs were refused, the first at {first}", refusals.count());
+                Some(RunFailure::new(FailureKind::InputsRefused, reason))
+            }
+            (None, Some(goal)) if goal.first.is_none() => {
+                Some(RunFailure::new(FailureKind::GoalNotReached, "the goal was not reached"))
+            }
+            (None, None) if study.goal().is_some() => {
+                Some(RunFailure::new(FailureKind::NoGoalRobot, "the goal's robot is not in this run"))
+            }
+            _ => None,
         };
         let first = stats.iter().filter_map(|robot| robot.first_contact).min();
         let least = stats.iter().filter_map(|robot| robot.least_clearance).map(|least| least.metres).reduce(lesser);
         let paths = stats.iter().filter_map(|robot| robot.path_length);
         let mut cells = study.parameters(row);
+        cells.extend(failure.map_or([RowValue::Empty, RowValue::Empty], |failure| failure.cells()));
         cells.extend([
-            RowValue::text(failure),
             RowValue::Whole(stats.iter().map(|robot| u64::from(robot.contacts)).sum()),
             RowValue::finite(first.map(seconds)),
             RowValue::finite(least),

@@ -24,6 +24,7 @@ mod columns;
 mod comparison;
 mod csv;
 mod error;
+mod failure_kind;
 mod gatherer;
 mod parameter;
 mod part;
@@ -45,6 +46,7 @@ pub use comparison::{
     AskedPath, ComparedAttempt, MixedKinds, NoProblem, PathCost, PlanCase, PlannerComparison, PlannerMedians,
 };
 pub use error::{MAX_RUNS, PLAN_VERSION, StudyError, SweepProblem};
+pub use failure_kind::{FailureKind, RunFailure};
 pub use gatherer::RowGatherer;
 pub use part::{PartError, PartHead, PartReader, PartWriter, sealed_line, unsealed_line};
 pub use planning::{PlannedPath, Planning, PlanningResult, RunLength};

@@ -43,6 +43,9 @@ pub enum PartError {
     /// A study that can't be read, with the reason.
     #[error("{}", OneLine(.0))]
     Study(String),
+    /// A whole part with other columns than this version gives to its study.
+    #[error("its columns are those of another version of motion-lab")]
+    Columns,
     /// A line that is none of this part's.
     #[error("line {0} is damaged")]
     Line(u64),
@@ -196,8 +199,10 @@ impl<R: BufRead> PartReader<R> {
         };
         let rows = read_line(&mut input, &mut hasher)?.and_then(|line| PartHead::read_rows(&line));
         let (rows, runs) = rows.filter(|(_, runs)| *runs == study.runs()).ok_or(PartError::Line(3))?;
-        if read_line(&mut input, &mut hasher)? != Some(study.heading()) {
-            return Err(PartError::Line(4));
+        match read_line(&mut input, &mut hasher)? {
+            Some(names) if names == study.heading() => {}
+            Some(_) if is_sealed(&mut input, &mut hasher)? => return Err(PartError::Columns),
+            _ => return Err(PartError::Line(4)),
         }
         let next = rows.start;
         Ok(PartReader { input, hasher, line: 4, head: PartHead { study: plan_line, rows, runs }, study, next })

@@ -9,6 +9,7 @@ use motion_lab_core::random::Seed;
 use motion_lab_sim::plans::{PathLengths, PlanAttempt, PlannerName, Task, solve_in_rounds};
 
 use super::case::{AskedPath, PlanCase};
+use crate::batch::failure_kind::{FailureKind, RunFailure};
 use crate::batch::problem_set::{ProblemSet, SetProblem};
 
 /// What is compared: every planner works on every problem, from every seed.
@@ -51,8 +52,12 @@ pub struct ComparedAttempt {
     pub effort: Effort,
     /// How long it took, seconds; this differs from run to run.
     pub seconds: f64,
+    /// The clearance that was asked of the path, metres: what the task says, or what is usual for the planner, which
+    /// may keep more by itself; `None` where there is no problem. Attempts that were asked for another are not
+    /// compared alike.
+    pub clearance_asked: Option<f64>,
     /// Length and clearance of the path, or why there is none.
-    pub path: Result<PathLengths, String>,
+    pub path: Result<PathLengths, RunFailure>,
     /// The first path's length, and that of each shorter one, at every 500th iteration and at the end.
     pub costs: Vec<PathCost>,
 }
@@ -143,25 +148,26 @@ impl PlannerComparison {
             return Ok(None);
         }
         let begun = Instant::now();
-        let none = |reason: String| ComparedAttempt {
+        let none = |failure: RunFailure| ComparedAttempt {
             case: Arc::clone(case),
             planner,
             seed,
             effort: Effort::default(),
             seconds: 0.0,
-            path: Err(reason),
+            clearance_asked: task.as_ref().ok().map(|task| clearance_asked(task, planner)),
+            path: Err(failure),
             costs: Vec::new(),
         };
         let task = match task {
             Ok(task) => task,
-            Err(reason) => return Ok(Some(none(reason.clone()))),
+            Err(reason) => return Ok(Some(none(RunFailure::new(FailureKind::Setup, reason.as_str())))),
         };
         let mut attempt = match task.attempt(planner, seed) {
             Ok(attempt) => attempt,
             Err(reason @ NoPath::Problem(_)) if case.known.is_none() => {
                 return Err(NoProblem { planner, seed, reason });
             }
-            Err(reason) => return Ok(Some(none(reason.to_string()))),
+            Err(reason) => return Ok(Some(none(reason.into()))),
         };
         let mut costs = Vec::new();
         let solved = solve_in_rounds(attempt.as_mut(), planner, self.iterations, |attempt| {
@@ -171,8 +177,9 @@ impl PlannerComparison {
         let Some(solved) = solved else { return Ok(None) };
         let seconds = begun.elapsed().as_secs_f64();
         see_cost(attempt.as_ref(), &mut costs);
-        let path = solved.map(|()| attempt.lengths()).map_err(|reason| reason.to_string());
-        Ok(Some(ComparedAttempt { effort: attempt.effort(), seconds, path, costs, ..none(String::new()) }))
+        let path = solved.map(|()| attempt.lengths()).map_err(RunFailure::from);
+        let unknown = RunFailure::new(FailureKind::NoPath, "");
+        Ok(Some(ComparedAttempt { effort: attempt.effort(), seconds, path, costs, ..none(unknown) }))
     }
 
     /// The number of a planner's attempts that had a path by a number of iterations.
@@ -180,6 +187,12 @@ impl PlannerComparison {
         let own = attempts.iter().filter(|attempt| attempt.planner == planner);
         own.filter(|attempt| attempt.costs.first().is_some_and(|first| first.iterations <= iterations)).count()
     }
+}
+
+/// The clearance that is asked of a planner's path, metres: who walks by a sensor keeps none.
+fn clearance_asked(task: &Task, planner: PlannerName) -> f64 {
+    let usual = || task.usual_clearance(planner.draws_samples());
+    if planner == PlannerName::Bug1Sensor { 0.0 } else { task.clearance.unwrap_or_else(usual) }
 }
 
 /// Notes the length of the best path, where it is the first or shorter than the last.

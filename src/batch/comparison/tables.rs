@@ -9,12 +9,13 @@ use motion_lab_sim::plans::PathLengths;
 use super::case::AskedPath;
 use super::compared::{ComparedAttempt, PlannerComparison};
 use crate::batch::columns::{CellKind, Column};
+use crate::batch::failure_kind::RunFailure;
 use crate::batch::problem_set::KnownProblem;
 use crate::batch::row::RowValue;
 use crate::batch::table::{TableError, TableWriter};
 
 /// What the columns are of that each attempt has.
-const OF_ATTEMPT: [(&str, CellKind, &str, &str); 15] = [
+const OF_ATTEMPT: [(&str, CellKind, &str, &str); 17] = [
     ("planner", CellKind::Text, "", "who planned"),
     ("seed", CellKind::Whole, "", "the seed of its samples"),
     ("solved", CellKind::Text, "", "true or false"),
@@ -25,7 +26,9 @@ const OF_ATTEMPT: [(&str, CellKind, &str, &str); 15] = [
     ("free", CellKind::Whole, "", "edges that were free"),
     ("length", CellKind::Number, PATH, "length of the path"),
     ("clearance", CellKind::Number, "m", "clearance proven along the whole path"),
+    ("clearance_asked", CellKind::Number, "m", "clearance that was asked of the path"),
     ("reason", CellKind::Text, "", "why there is no path"),
+    ("failure_kind", CellKind::Text, "", "what sort of failure that is, of few"),
     ("robot", CellKind::Text, "", "the robot's name"),
     ("world", CellKind::Text, "", "the world's name"),
     (START, CellKind::Text, "", "where the path begins: coordinates in metres and radians, joined by commas"),
@@ -75,7 +78,7 @@ impl PlannerComparison {
 
     /// An attempt's cells; a path's are empty where there is none.
     fn cells(&self, attempt: &ComparedAttempt) -> Vec<RowValue> {
-        let ComparedAttempt { case, planner, seed, effort, seconds, path, costs: _ } = attempt;
+        let ComparedAttempt { case, planner, seed, effort, seconds, clearance_asked, path, costs: _ } = attempt;
         let Effort { iterations, samples, edges, free } = *effort;
         let number = |x: Option<f64>| x.map_or(RowValue::Empty, RowValue::Number);
         let path_number = |of: fn(&PathLengths) -> f64| number(path.as_ref().ok().map(of));
@@ -90,7 +93,8 @@ impl PlannerComparison {
         ];
         cells.extend([iterations, samples, edges, free].map(RowValue::Whole));
         cells.extend([path_number(|path| path.length), path_number(|path| path.clearance)]);
-        cells.push(path.as_ref().err().map_or(RowValue::Empty, RowValue::text));
+        cells.push(number(*clearance_asked));
+        cells.extend(path.as_ref().err().map_or([RowValue::Empty, RowValue::Empty], RunFailure::cells));
         match &case.asked {
             Some(AskedPath { robot, world, ends }) => {
                 cells.extend([robot, world].map(RowValue::text));

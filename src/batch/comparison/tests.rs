@@ -9,7 +9,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
 use super::*;
-use crate::batch::{KnownProblem, ProblemFile, ProblemSet, TableError};
+use crate::batch::{FailureKind, KnownProblem, ProblemFile, ProblemSet, RunFailure, TableError};
 
 const PLANNERS: [PlannerName; 2] = [PlannerName::RrtStar, PlannerName::AStar];
 
@@ -106,7 +106,7 @@ fn an_end_in_contact_is_no_problem_and_one_of_a_scenario_has_no_path() {
     let attempts = comparison.run(|_| true).unwrap();
     assert_eq!(attempts.len(), 2);
     for attempt in &attempts {
-        assert!(attempt.path.as_ref().is_err_and(|reason| reason.contains("the post")), "{:?}", attempt.path);
+        assert!(attempt.path.as_ref().is_err_and(|failure| failure.reason.contains("the post")), "{:?}", attempt.path);
         assert!(attempt.costs.is_empty() && attempt.effort.iterations == 0);
     }
     let medians = &comparison.medians(&attempts)[0];
@@ -171,10 +171,10 @@ fn the_tables_have_the_same_cells_by_a_reader_of_parquet() {
         [[1.5, 5.75, 0.3], [2.5, 6.25, 0.0]].map(|q| AnyRobot::of_kind("rusty", &q).unwrap());
     let comparison = PlannerComparison::of(Task::new("Rusty", robot, world, [start, goal]), PLANNERS.to_vec(), 0..2);
     let mut attempts = comparison.run(|_| true).unwrap();
-    attempts[3].path = Err("no, none".into());
+    attempts[3].path = Err(RunFailure::new(FailureKind::GaveUp, "no, none"));
     let csv = comparison.csv(&attempts);
-    let head =
-        "planner,seed,solved,time_s,iterations,samples,edges,free,length_m,clearance_m,reason,robot,world,start,goal";
+    let head = "planner,seed,solved,time_s,iterations,samples,edges,free,length_m,clearance_m,clearance_asked_m,reason,\
+                failure_kind,robot,world,start,goal";
     assert_eq!(csv.lines().next(), Some(head));
     let file = tempfile::tempfile().unwrap();
     comparison.parquet(&attempts, file.try_clone().unwrap()).unwrap();
@@ -186,18 +186,27 @@ fn the_tables_have_the_same_cells_by_a_reader_of_parquet() {
         assert_eq!(fields.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(","), head);
         let text =
             |i: usize| if let Field::Str(text) = fields[i].1 { text.as_str() } else { panic!("{:?}", fields[i]) };
-        assert_eq!((text(0), text(12), text(13)), (attempt.planner.id(), "=a, \"b\"", "1.5,5.75,0.3"));
+        assert_eq!((text(0), text(14), text(15)), (attempt.planner.id(), "=a, \"b\"", "1.5,5.75,0.3"));
         assert_eq!(*fields[1].1, Field::ULong(attempt.seed.0));
         assert_eq!(*fields[6].1, Field::ULong(attempt.effort.edges));
         match &attempt.path {
-            Ok(path) => assert_eq!((fields[8].1, fields[10].1), (&Field::Double(path.length), &Field::Null)),
-            Err(reason) => assert_eq!((fields[8].1, text(10)), (&Field::Null, reason.as_str())),
+            Ok(path) => assert_eq!((fields[8].1, fields[11].1), (&Field::Double(path.length), &Field::Null)),
+            Err(failure) => {
+                let said = (&Field::Null, failure.reason.as_str(), "gave-up");
+                assert_eq!((fields[8].1, text(11), text(12)), said);
+            }
         }
+        // of these two one draws samples, and is to keep a millimetre
+        let asked = if attempt.planner == PlannerName::AStar { 0.0 } else { 0.001 };
+        assert_eq!(*fields[10].1, Field::Double(asked));
     }
     // as CSV the same, and no spreadsheet takes the world's name for a formula
     let last = csv.lines().last().unwrap();
     assert!(last.starts_with("a-star,1,false,"), "{last}");
-    assert!(last.ends_with(",,,\"no, none\",Rusty,\"'=a, \"\"b\"\"\",\"1.5,5.75,0.3\",\"2.5,6.25,0\""), "{last}");
+    assert!(
+        last.ends_with(",,,0,\"no, none\",gave-up,Rusty,\"'=a, \"\"b\"\"\",\"1.5,5.75,0.3\",\"2.5,6.25,0\""),
+        "{last}"
+    );
     let entries = reader.metadata().file_metadata().key_value_metadata().unwrap();
     let columns = entries.iter().find(|entry| entry.key == "motion-lab.columns").unwrap();
     let columns: serde_json::Value = serde_json::from_str(columns.value.as_ref().unwrap()).unwrap();

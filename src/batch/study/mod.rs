@@ -12,6 +12,7 @@ use std::sync::Arc;
 use super::axis::{CheckedAxis, NamedProblems, ProblemFiles};
 use super::columns::{Column, RobotColumns, columns, heading, table_heading};
 use super::error::{PLAN_VERSION, SweepProblem};
+use super::failure_kind::{FailureKind, RunFailure};
 use super::parameter::{Parameter, RunParameter};
 use super::planning::{Planning, PlanningResult, RunLength};
 use super::row::{RowValue, RunRow};
@@ -369,10 +370,16 @@ impl Study {
         Some((self.columns.get(i)?, cell))
     }
 
-    /// The row of a run that could not be run, with the reason.
+    /// The row of a run that could not be [set up](Self::setup), with the reason; with an empty one, a row without any
+    /// result.
     pub fn failed(&self, row: u64, reason: &str) -> RunRow {
+        self.failed_by(row, &RunFailure::new(FailureKind::Setup, reason))
+    }
+
+    /// The row of a run that could not be run.
+    pub fn failed_by(&self, row: u64, failure: &RunFailure) -> RunRow {
         let mut cells = self.parameters(row);
-        cells.push(RowValue::text(reason));
+        cells.extend(failure.cells());
         cells.resize(self.columns.len(), RowValue::Empty);
         RunRow { row, cells }
     }

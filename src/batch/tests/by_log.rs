@@ -229,11 +229,17 @@ fn expected(row: u64, frames: &[Vec<Logged>], digest: String) -> BTreeMap<String
         (0, None) => "the goal was not reached".into(),
         _ => format!("{refused} inputs were refused, the first at tick 9: robot \"Rusty\" refused Teleport: it would "),
     };
+    let kind = match (refused, there.first()) {
+        (0, Some(_)) => "",
+        (0, None) => "goal-not-reached",
+        _ => "inputs-refused",
+    };
     for (column, cell) in [
         ("row", whole(row)),
         ("seed", whole(3 + row / 2 % 2)),
         ("ticks", whole(frames.len() as u64 - 1)),
         ("failure", Expectation::Text(failure)),
+        ("failure_kind", text(&kind)),
         ("contacts", whole(contacts)),
         ("first_contact_s", time(first_contact)),
         ("least_clearance_m", Expectation::Near(nearest)),

@@ -53,6 +53,10 @@ fn a_part_comes_back_and_no_damaged_one_is_taken_for_whole() {
     let sealed = sealed(&later);
     assert!(matches!(read(sealed.as_bytes()), Err(PartError::Study(reason)) if reason.contains("sweep 2")));
     assert!(matches!(read(format!("{sealed}\n").as_bytes()), Err(PartError::Seal)));
+    // and so are columns that only another version has
+    let other = text[..text.rfind("seal ").unwrap()].replace(",failure_kind,", ",");
+    assert!(matches!(read(self::sealed(&other).as_bytes()), Err(PartError::Columns)));
+    assert!(matches!(read(text.replace(",failure_kind,", ",").as_bytes()), Err(PartError::Line(4))));
 }
 
 #[test]

@@ -236,7 +236,7 @@ fn planners_are_compared_in_a_table_and_in_rows() {
     let lines: Vec<&str> = rows.lines().collect();
     assert_eq!(lines.len(), 6);
     let counts = "iterations,samples,edges,free";
-    let path = "length_rad,clearance_m,reason,robot,world,start,goal";
+    let path = "length_rad,clearance_m,clearance_asked_m,reason,failure_kind,robot,world,start,goal";
     assert_eq!(lines[0], format!("planner,seed,solved,time_s,{counts},{path}"));
     for (line, seed) in lines[1..].iter().zip(3..8) {
         assert!(line.ends_with(",reach,Workbench,\"2,0\",\"3.1,0\""), "{line}");
@@ -255,6 +255,23 @@ fn planners_are_compared_in_a_table_and_in_rows() {
     let more = ["plan", "--robot", "reach", "--from", "0.785,0.785", "--to", "3.1,0", "--compare", "rrt", "--json"];
     let none = run(&more);
     assert_eq!((none.code, &json(&none.out)["solved"]), (Some(4), &false.into()), "{}", none.out);
+    // what is not alike is said, and what makes it so
+    let kept = |more: &[&str]| {
+        let compare = ["--compare", "rrt,a-star", "--seeds", "0..1", "--csv", "kept.csv"];
+        let table = run_in(folder.path(), &[&ROUND_THE_POST[..], &compare, more].concat()).done();
+        let rows = fs::read_to_string(folder.path().join("kept.csv")).unwrap();
+        let kept: Vec<String> = rows.lines().map(|row| row.split(',').nth(10).unwrap().to_owned()).collect();
+        (table, kept)
+    };
+    let (table, column) = kept(&[]);
+    assert!(table.contains("the same from obstacles: 0 m by a-star; 0.001 m by rrt; --clearance is one"), "{table}");
+    assert_eq!(column, ["clearance_asked_m", "0.001", "0"]);
+    let (table, column) = kept(&["--clearance", "0.002"]);
+    assert!(
+        table.ends_with("all were asked to keep 0.002 m from obstacles\n") && !table.contains("not all"),
+        "{table}"
+    );
+    assert_eq!(column, ["clearance_asked_m", "0.002", "0.002"]);
     // a planner of discs has no path for an arm, and the others go on
     let more = ["--compare", "bug2,prm,rrt", "--seeds", "1..3"];
     let table = run_in(folder.path(), &[&ROUND_THE_POST[..], &more].concat()).done();

@@ -63,6 +63,8 @@ fn a_row_is_the_path_that_plan_finds_and_the_run_that_its_script_drives() {
             assert_eq!((row("digest"), row("planned_path_rad"), row("contacts")), Default::default());
             bounded += u64::from(row("iterations") == "3");
             in_contact += u64::from(row("iterations") == "0" && row("edges") == "0");
+            let kind = if row("iterations") == "3" { "exhausted" } else { "no-problem" };
+            assert_eq!(row("failure_kind"), kind, "{}", row("failure"));
             continue;
         }
         solved += 1;
@@ -79,7 +81,7 @@ fn a_row_is_the_path_that_plan_finds_and_the_run_that_its_script_drives() {
         run_in(at, &[&record[..], &["--ticks", "600", "-o", "run.mcap"]].concat()).done();
         let info = json(&run_in(at, &["info", "--json", "run.mcap"]).done());
         assert_eq!(info["digest"], row("digest").as_str(), "{planner} at {seed}");
-        assert_eq!((row("contacts").as_str(), row("failure").as_str()), ("0", ""));
+        assert_eq!([row("contacts"), row("failure"), row("failure_kind")], ["0", "", ""]);
         assert_eq!(row("first_at_goal_s").parse::<f64>().unwrap(), row("planned_time_s").parse::<f64>().unwrap());
     }
     assert_eq!((rows.len(), solved, bounded, in_contact), (24, 6, 6, 12));

@@ -52,6 +52,7 @@ fn every_problem_of_a_scenario_is_a_run() {
         assert!((numbers(row, "Rusty.end.y_m") - numbers(row, "problem.goal.y_m")).abs() < 0.05);
     }
     assert!(rows[2]("failure").starts_with("the start would overlap box "), "{}", rows[2]("failure"));
+    assert_eq!(rows[2]("failure_kind"), "no-problem");
     run_in(at, &["sweep", "reproduce", "all.parquet", "--row", "1", "-o", "again.mcap"]).done();
     run_in(at, &["verify", "again.mcap"]).done();
     // what the study cannot be is said where it names the scenario

@@ -61,6 +61,7 @@ pub fn compare(args: &PlanArgs, problems: ProblemSet, data: &mut Data) -> Result
         data.json(&lines)?;
     } else {
         print(&lines, comparison.unit(), is_of_problems, data)?;
+        asked_in_words(args, &attempts).map_or(Ok(()), |words| data.line(words))?;
     }
     if let Some(target) = table {
         write_file(&target, &rows(&comparison, &attempts, target.path())?)?;
@@ -155,6 +156,27 @@ fn numbered(path: &Path, number: u64) -> PathBuf {
         name.push(extension);
     }
     path.with_file_name(name)
+}
+
+/// What clearance was asked of the paths, where somebody says one, and where it is not the same for all planners.
+fn asked_in_words(args: &PlanArgs, attempts: &[ComparedAttempt]) -> Option<String> {
+    if let Some(kept) = args.clearance {
+        return Some(format!("all were asked to keep {kept} m from obstacles"));
+    }
+    let mut by_clearance: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for attempt in attempts {
+        let Some(kept) = attempt.clearance_asked else { continue };
+        let planners = by_clearance.entry(kept.to_string()).or_default();
+        if !planners.contains(&attempt.planner.id()) {
+            planners.push(attempt.planner.id());
+        }
+    }
+    let kept: Vec<String> =
+        by_clearance.iter().map(|(kept, planners)| format!("{kept} m by {}", planners.join(", "))).collect();
+    (kept.len() > 1).then(|| {
+        let kept = kept.join("; ");
+        format!("not all were asked to keep the same from obstacles: {kept}; --clearance is one for all")
+    })
 }
 
 fn print(lines: &[PlannerMedians], unit: &str, is_of_problems: bool, data: &mut Data) -> Result<(), Failure> {

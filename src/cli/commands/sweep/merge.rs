@@ -68,7 +68,7 @@ impl TableForm {
 /// The failure of a part that can't be read.
 pub fn refused(part: &Path, error: &PartError) -> Failure {
     let next = match error {
-        PartError::Study(_) => "Use the version of motion-lab that wrote it.",
+        PartError::Study(_) | PartError::Columns => "Use the version of motion-lab that wrote it.",
         PartError::NotAPart => {
             "Name a part, or a folder of parts. A damaged part is taken away and its shard run again."
         }

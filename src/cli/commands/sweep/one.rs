@@ -64,8 +64,8 @@ fn ran(study: &Study, row: u64, stop: StopRule, log: Option<&Target>) -> Result<
     let (run, planned) = match study.setup(row).map(made) {
         Err(reason) => return Ok(Some(study.failed(row, &reason))),
         Ok(PlannedInputs::Path(planned)) => return Ok(Some(study.planned(row, &planned))),
-        Ok(PlannedInputs::None(reason, planned)) => {
-            return Ok(Some(study.with_planned(study.failed(row, &reason), &planned)));
+        Ok(PlannedInputs::None(failure, planned)) => {
+            return Ok(Some(study.with_planned(study.failed_by(row, &failure), &planned)));
         }
         Ok(PlannedInputs::Stopped) => return Ok(None),
         Ok(PlannedInputs::Run(run, planned)) => (run, planned),

@@ -1,6 +1,6 @@
 //! A run whose inputs are made: by its script, or by a planner's path that is planned and played.
 
-use crate::batch::{PlannedPath, Planning, PlanningResult, RunInputs, RunLength, RunSetup};
+use crate::batch::{FailureKind, PlannedPath, Planning, PlanningResult, RunFailure, RunInputs, RunLength, RunSetup};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_core::planning::{Effort, NoPath};
 use motion_lab_core::random::Seed;
@@ -21,7 +21,7 @@ pub enum PlannedInputs {
     /// There is a path, which no run plays.
     Path(PlanningResult),
     /// There are none, for this reason.
-    None(String, PlanningResult),
+    None(RunFailure, PlanningResult),
     /// Somebody asked to stop.
     Stopped,
 }
@@ -29,20 +29,20 @@ pub enum PlannedInputs {
 /// Why there is no script.
 enum Why {
     /// There is no path, or none that can be played, for this reason.
-    NoPath(String),
+    NoPath(RunFailure),
     /// Somebody asked to stop.
     Stopped,
 }
 
 impl From<String> for Why {
     fn from(reason: String) -> Self {
-        Why::NoPath(reason)
+        Why::NoPath(RunFailure::new(FailureKind::Setup, reason))
     }
 }
 
 impl From<NoPath> for Why {
     fn from(reason: NoPath) -> Self {
-        Why::NoPath(reason.to_string())
+        Why::NoPath(reason.into())
     }
 }
 
@@ -90,8 +90,9 @@ fn planned_script(
         return Ok(None);
     }
     let (_, played) = task.played(attempt.as_ref(), seed);
-    let played = played.ok_or_else(|| "there is no path to play".to_owned())?;
-    let played = played.map_err(|reason| format!("the path can't be played: {reason}"))?;
+    let unplayable = |reason: String| Why::NoPath(RunFailure::new(FailureKind::Unplayable, reason));
+    let played = played.ok_or_else(|| unplayable("there is no path to play".to_owned()))?;
+    let played = played.map_err(|reason| unplayable(format!("the path can't be played: {reason}")))?;
     planned.path = Some(PlannedPath { time: Some(seconds(played.ticks)), ..path });
     Ok(Some(played))
 }
