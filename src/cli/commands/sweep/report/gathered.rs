@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use crate::batch::{Column, RowValue, RunRow, Study, TableError, TableFile, VariedAxis};
+use super::grouping::{RowEnd, RowGroups, number};
+use crate::batch::{Column, RunRow, Study, TableError, TableFile};
 use crate::capture::{ByValue, Captured, Distribution, boxes, histograms};
 use crate::cli::Failure;
 use crate::cli::commands::sweep::verify;
@@ -35,42 +36,18 @@ pub struct Gathered {
     pub failed: u64,
     /// The results, each with a number for each row; NaN for one that has none.
     pub results: Vec<Distribution>,
-    /// The axes of few values.
-    pub axes: Vec<VariedAxis>,
-    /// For each of them, the number of the value of each row.
-    values: Vec<Vec<u8>>,
-    /// Whether each row failed, and whether its planner had a path.
-    ended: Vec<RowEnd>,
+    /// The rows by the values of each parameter of few values, or of those that were asked for.
+    pub groups: Vec<RowGroups>,
+    /// How each row ended.
+    pub ended: Vec<RowEnd>,
+    /// The kinds of failure that there are.
+    pub kinds: Vec<String>,
     /// Whether the study has a planner.
     pub is_planned: bool,
     /// The runs with the most contacts, then the least clearance; worst first.
     pub worst: Vec<RunRow>,
     /// The first runs that failed.
     pub failures: Vec<RunRow>,
-}
-
-/// How a row ended.
-#[derive(Clone, Copy)]
-struct RowEnd {
-    is_failure: bool,
-    is_solved: bool,
-}
-
-/// How the runs of a value ended.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct ValueCounts {
-    pub runs: u64,
-    pub solved: u64,
-    pub failed: u64,
-}
-
-/// The number in a cell.
-fn number(cell: Option<&RowValue>) -> Option<f64> {
-    match cell {
-        Some(RowValue::Whole(n)) => Some(*n as f64),
-        Some(RowValue::Number(x)) => Some(*x),
-        _ => None,
-    }
 }
 
 /// The name of a column without its unit, and the unit where the name does not say it.
@@ -106,7 +83,8 @@ impl Gathered {
         let shown: Vec<&Column> = columns.iter().filter(|column| SHOWN.contains(&column.name.as_str())).collect();
         let is_planned = columns.iter().any(|column| column.name == "solved");
         let axes = study.varied();
-        let (mut values, mut ended) = (vec![Vec::new(); axes.len()], Vec::new());
+        let mut groups: Vec<RowGroups> = axes.iter().map(RowGroups::of_axis).collect();
+        let (mut ended, mut kinds) = (Vec::new(), Vec::new());
         let mut results: Vec<Distribution> =
             shown.iter().map(|column| Distribution { name: title(column), values: Vec::new() }).collect();
         let mut failed = 0;
@@ -125,11 +103,10 @@ impl Gathered {
                 for (result, column) in results.iter_mut().zip(&shown) {
                     result.values.push(number(row.cell(columns, &column.name)).unwrap_or(f64::NAN));
                 }
-                for (values, value) in values.iter_mut().zip(study.values_of(&axes, row.row)) {
-                    values.push(value as u8);
+                for (groups, value) in groups.iter_mut().zip(study.values_of(&axes, row.row)) {
+                    groups.of_rows.push(value as u16);
                 }
-                let is_solved = row.cell(columns, "solved") == Some(&RowValue::Whole(1));
-                ended.push(RowEnd { is_failure: row.is_failure(columns), is_solved });
+                ended.push(RowEnd::of(&study, &row, &mut kinds));
                 if row.is_failure(columns) {
                     failed += 1;
                     if failures.len() < LISTED {
@@ -145,14 +122,7 @@ impl Gathered {
                 }
             })
             .map_err(refused)?;
-        Ok(Gathered { study, rows, failed, results, axes, values, ended, is_planned, worst, failures })
-    }
-
-    /// The same, with figures for the values of the axis of this name alone; `None` without it.
-    pub fn only(mut self, name: &str) -> Option<Self> {
-        let at = self.axes.iter().position(|axis| axis.name == name)?;
-        (self.axes, self.values) = (vec![self.axes.swap_remove(at)], vec![self.values.swap_remove(at)]);
-        Some(self)
+        Ok(Gathered { study, rows, failed, results, groups, ended, kinds, is_planned, worst, failures })
     }
 
     /// The results of all runs as histograms.
@@ -161,41 +131,28 @@ impl Gathered {
         histograms(&title, &self.results, vec![("Study", self.study.digest().to_string())])
     }
 
-    /// The results by the values of each axis, as boxes.
+    /// The results by the values of parameters, as boxes: a figure for each of the groupings.
     pub fn figures_by_value(&self) -> impl Iterator<Item = Captured> {
-        self.axes.iter().zip(&self.values).map(|(axis, values)| {
-            let results: Vec<ByValue> = self.results.iter().map(|result| by_value(axis, values, result)).collect();
-            let title = format!("{} of a sweep by {}", counted(self.rows, "run"), axis.name);
-            boxes(&title, &axis.name, &results, vec![("Study", self.study.digest().to_string())])
+        self.groups.iter().map(|groups| {
+            let results: Vec<ByValue> = self.results_by_value(groups).collect();
+            let (title, name) =
+                (format!("{} of a sweep by {}", counted(self.rows, "run"), groups.name()), groups.name());
+            boxes(&title, &name, &results, vec![("Study", self.study.digest().to_string())])
         })
     }
 
-    /// For each axis, for each of its values, how its runs ended.
-    pub fn counts(&self) -> impl Iterator<Item = Vec<ValueCounts>> {
-        self.axes.iter().zip(&self.values).map(|(axis, values)| {
-            let mut counts = vec![ValueCounts::default(); axis.values.len()];
-            for (value, ended) in values.iter().zip(&self.ended) {
-                let of_value = &mut counts[usize::from(*value)];
-                of_value.runs += 1;
-                of_value.solved += u64::from(ended.is_solved);
-                of_value.failed += u64::from(ended.is_failure);
-            }
-            counts
-        })
-    }
-
-    /// The results by the values of the axis of this number.
-    pub fn results_by_value(&self, axis: usize) -> impl Iterator<Item = ByValue> {
-        self.results.iter().map(move |result| by_value(&self.axes[axis], &self.values[axis], result))
+    /// The results by the values of parameters.
+    pub fn results_by_value(&self, groups: &RowGroups) -> impl Iterator<Item = ByValue> {
+        self.results.iter().map(move |result| by_value(groups, result))
     }
 }
 
-/// A result by the values of an axis.
-fn by_value(axis: &VariedAxis, values: &[u8], result: &Distribution) -> ByValue {
-    let mut groups: Vec<(String, Vec<f64>)> = axis.values.iter().map(|value| (value.clone(), Vec::new())).collect();
-    for (value, x) in values.iter().zip(&result.values) {
+/// A result by the values of parameters.
+fn by_value(by: &RowGroups, result: &Distribution) -> ByValue {
+    let mut groups: Vec<(String, Vec<f64>)> = by.groups.iter().map(|words| (words.join(", "), Vec::new())).collect();
+    for (group, x) in by.of_rows.iter().zip(&result.values) {
         if x.is_finite() {
-            groups[usize::from(*value)].1.push(*x);
+            groups[usize::from(*group)].1.push(*x);
         }
     }
     ByValue { name: result.name.clone(), groups }

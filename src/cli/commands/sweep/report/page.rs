@@ -7,7 +7,7 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use motion_lab_sim::run::Recipe;
 
-use super::by_value::table;
+use super::by_value::{failures as failures_by_kind, table};
 use super::gathered::{Gathered, parameter_title, title};
 use super::words::{escaped, rounded};
 use crate::batch::{CellKind, RowValue, RunInputs, RunRow, Study};
@@ -46,9 +46,13 @@ pub fn page(gathered: &Gathered, file: &Path, paper: &Paper, site: &str) -> Stri
     let axes = axes.collect::<Vec<_>>().join(", ");
     // writing into a string can't fail
     let _ = writeln!(page, "<p>Varied: {}.</p>", if axes.is_empty() { "nothing" } else { axes.as_str() });
-    for ((number, axis), figure) in gathered.axes.iter().enumerate().zip(gathered.figures_by_value()) {
-        let (table, picture) = (table(gathered, number), image(&figure, paper));
-        let _ = writeln!(page, "<h2>By {}</h2>\n{table}{picture}", escaped(&axis.name));
+    let by_kind = failures_by_kind(gathered);
+    if !by_kind.is_empty() {
+        let _ = writeln!(page, "<h2>Failures by kind</h2>\n{by_kind}");
+    }
+    for (groups, figure) in gathered.groups.iter().zip(gathered.figures_by_value()) {
+        let (table, picture) = (table(gathered, groups), image(&figure, paper));
+        let _ = writeln!(page, "<h2>By {}</h2>\n{table}{picture}", escaped(&groups.name()));
     }
     let _ = writeln!(page, "<h2>Distributions</h2>\n{}", gathered.figure().svg(paper));
     list(gathered, &mut page, "Worst runs: most contacts, then least clearance", worst, (file, site));
