@@ -13,6 +13,8 @@ const MAX_NOTES: usize = 100;
 pub struct WorldDraft {
     pub world: WorldBuilder,
     notes: Vec<String>,
+    /// See [`Imported::assumed_unit`].
+    pub assumed_unit: Option<f64>,
 }
 
 /// A robot that is to be added.
@@ -51,7 +53,7 @@ impl WorldDraft {
 
     /// Returns the finished world with these bounds, and the notes.
     pub fn finish(self, name: &str, min: Xy, max: Xy) -> Result<Imported, WorldProblem> {
-        Ok(Imported { world: self.world.finish(name, min, max)?, notes: self.notes })
+        Ok(Imported { world: self.world.finish(name, min, max)?, notes: self.notes, assumed_unit: self.assumed_unit })
     }
 }
 

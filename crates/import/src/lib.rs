@@ -39,6 +39,9 @@ pub struct Imported {
     pub world: World,
     /// Notes for the reader, a sentence each: what was left out and how things were interpreted.
     pub notes: Vec<String>,
+    /// The length that a unit of a drawing was taken for, metres, where neither the drawing nor the caller says one;
+    /// `None` where somebody does. So it may be far from what was drawn.
+    pub assumed_unit: Option<f64>,
 }
 
 impl Imported {

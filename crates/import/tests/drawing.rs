@@ -33,7 +33,7 @@ fn assert_near(found: &[(f64, f64)], expected: &[(f64, f64)]) {
 
 #[test]
 fn what_is_filled_is_solid_and_what_is_stroked_a_wall() {
-    let Imported { world, notes } = hall();
+    let Imported { world, notes, .. } = hall();
     let names: Vec<(&str, ObstacleKind)> = world.obstacles.iter().map(|o| (o.name.as_str(), o.kind)).collect();
     use ObstacleKind::{Solid, Wall};
     let expected = [

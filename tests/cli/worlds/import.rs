@@ -181,3 +181,33 @@ fn imports_that_cannot_be_say_why() {
     failed(&[&sample("yard.map"), "--robot", "rusty"], 2);
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 3, "nothing was written");
 }
+
+#[test]
+fn a_size_that_nobody_says_is_warned_of_by_the_files_name() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let rectangle = "<rect id='a' width='2' height='3' x='1' y='1'/></svg>";
+    let svg = |head: &str| format!("<svg xmlns='http://www.w3.org/2000/svg' {head}>{rectangle}");
+    fs::write(at.join("plain.svg"), svg("viewBox='0 0 9 9'")).unwrap();
+    fs::write(at.join("pixels.svg"), svg("width='36' height='36' viewBox='0 0 9 9'")).unwrap();
+    fs::write(at.join("plan.svg"), svg("width='9cm' height='9cm' viewBox='0 0 9 9'")).unwrap();
+    fs::write(at.join("yard.map"), "type octile\nheight 2\nwidth 3\nmap\n..@\n...\n").unwrap();
+    for (file, option, assumed) in [
+        ("plain.svg", "--metres-per-unit", "a unit of it was taken for 1 m"),
+        ("pixels.svg", "--metres-per-unit", "a unit of it was taken for 4 m"),
+        ("yard.map", "--metres-per-cell", "a cell was taken for 1 m"),
+    ] {
+        let import = ["world", "import", file, "-o", "world.ron"];
+        let silent = run_in(at, &import);
+        assert_eq!(silent.err.matches(&format!("motion-lab: {file}: the ")).count(), 1, "{}", silent.err);
+        assert!(silent.err.contains(assumed) && silent.err.contains(option), "{}", silent.err);
+        let assumed_world = fs::read_to_string(at.join("world.ron")).unwrap();
+        // who says the same gets the same world, and no warning
+        let metres = if file == "pixels.svg" { "4" } else { "1" };
+        let said = run_in(at, &[&import[..], &[option, metres]].concat());
+        assert!(!said.err.contains("taken for"), "{}", said.err);
+        assert_eq!(fs::read_to_string(at.join("world.ron")).unwrap(), assumed_world);
+    }
+    let physical = run_in(at, &["world", "import", "plan.svg", "-o", "world.ron"]);
+    assert!(physical.err.contains("9cm x 9cm") && !physical.err.contains("taken for"), "{}", physical.err);
+}

@@ -146,7 +146,8 @@ impl<'a> SvgDrawing<'a> {
         Ok(extent(parts).map_or(UNKNOWN, |Aabb { max, .. }| (max.x, max.y)))
     }
 
-    /// The length of a pixel of the sheet, metres. Unless a unit of the drawing is a metre, a note says what it is.
+    /// The length of a pixel of the sheet, metres. A note says what a unit of the drawing is, or the draft that it
+    /// is assumed.
     fn metres_per_pixel(&self, size: &SheetSize, draft: &mut WorldDraft) -> f64 {
         let [a, b, ..] = size.to_pixels.0;
         let pixels_per_unit = motion_lab_core::num::hypot(a, b);
@@ -160,22 +161,20 @@ impl<'a> SvgDrawing<'a> {
         }
         let physical = super::lengths::METRES_PER_PIXEL;
         let scale = if size.physical.is_some() { physical } else { 1.0 };
-        let unit = short(scale * pixels_per_unit);
         match &size.physical {
-            Some(written) => draft.note(format!(
-                "the drawing says that it is {written}, so a unit of it is {unit} m; --metres-per-unit changes it"
-            )),
-            None if unit != "1" => draft.note(format!(
-                "a pixel of the drawing's width and height is 1 m, so a unit of it is {unit} m; --metres-per-unit \
-                 changes it"
-            )),
-            None => {}
+            Some(written) => {
+                let unit = rounded(scale * pixels_per_unit);
+                draft.note(format!(
+                    "the drawing says that it is {written}, so a unit of it is {unit} m; --metres-per-unit changes it"
+                ));
+            }
+            None => draft.assumed_unit = Some(rounded(scale * pixels_per_unit)),
         }
         scale
     }
 }
 
-/// A length with six digits after the first one, without trailing zeros.
-fn short(x: f64) -> String {
-    format!("{x:.6e}").parse::<f64>().unwrap_or(x).to_string()
+/// A length with six digits after the first one.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.6e}").parse().unwrap_or(x)
 }

@@ -66,13 +66,22 @@ fn metres_per_unit_are_of_the_drawings_own_unit() {
 fn a_pixel_is_a_metre_where_nothing_else_is_said() {
     let plain = square("width='100' height='100' viewBox='0 0 100 100'", None);
     assert_eq!((extent(&plain.world, "a"), plain.notes.len()), ([25.0, 25.0, 75.0, 75.0], 0));
+    assert_eq!(plain.assumed_unit, Some(1.0));
     let scaled = square("width='200' height='200' viewBox='0 0 100 100'", None);
     assert_eq!(extent(&scaled.world, "a"), [50.0, 50.0, 150.0, 150.0]);
-    assert_eq!(
-        scaled.notes,
-        ["a pixel of the drawing's width and height is 1 m, so a unit of it is 2 m; --metres-per-unit changes it"]
-    );
+    assert_eq!((scaled.assumed_unit, scaled.notes.len()), (Some(2.0), 0));
     // a drawing without any size reaches as far as what it shows
     let bare = square("", None);
     assert_eq!((bare.world.bounds.max.x, extent(&bare.world, "a")), (75.0, [25.0, 0.0, 75.0, 50.0]));
+    assert_eq!(bare.assumed_unit, Some(1.0));
+    let percent = square("width='100%' height='100%' viewBox='0 0 100 100'", None);
+    assert_eq!(percent.assumed_unit, Some(1.0));
+    // whoever says a size, in the drawing or beside it, is not second-guessed
+    for (head, said) in [
+        ("width='100mm' height='100mm'", None),
+        ("height='1in' viewBox='0 0 9 9'", None),
+        ("viewBox='0 0 9 9'", Some(0.5)),
+    ] {
+        assert_eq!(square(head, said).assumed_unit, None, "{head}");
+    }
 }

@@ -15,7 +15,7 @@ use motion_lab_import::{
 use motion_lab_sim::run::Recipe;
 use motion_lab_sim::tour::TourConfig;
 
-use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, is_dash, read_bytes, read_text_of};
+use crate::cli::support::input::{MAX_FOREIGN, MAX_TEXT, is_dash, read_bytes, read_text_of, shown};
 use crate::cli::support::output::write_file;
 use crate::cli::support::simulate::begin;
 use crate::cli::support::target::Target;
@@ -72,11 +72,11 @@ pub struct Import {
     /// The seed of what an IR-SIM world leaves to chance.
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     seed: u64,
-    /// The size of a MovingAI map's cells, metres.
-    #[arg(long, value_name = "METRES", default_value_t = 1.0)]
-    metres_per_cell: f64,
+    /// The size of a MovingAI map's cells, metres. [default: 1, and a warning, as such a map says no size]
+    #[arg(long, value_name = "METRES")]
+    metres_per_cell: Option<f64>,
     /// The length of an SVG drawing's own unit, that of its viewBox, metres. [default: by the drawing's physical size;
-    /// without one, 1 m for a pixel of its width and height]
+    /// without one, 1 m for a pixel of its width and height, and a warning]
     #[arg(long, value_name = "METRES")]
     metres_per_unit: Option<f64>,
     /// How far the straight pieces of an SVG drawing's curves may be from them, metres.
@@ -124,8 +124,9 @@ impl Import {
             imported.put_robot(kind, &start).map_err(|problem| usage(format!("--robot {kind}: {problem}")))?;
             imported.world.check_residents().map_err(|(_, reason)| usage(format!("--robot {kind}: {reason}")))?;
         }
-        let Imported { world, notes } = imported;
+        let Imported { world, notes, assumed_unit } = imported;
         notes.iter().for_each(say);
+        self.warning(kind, assumed_unit).iter().for_each(say);
         contacts(&world)?.iter().for_each(say);
         let text = world.to_ron();
         let Some(output) = self.output.as_deref().filter(|output| !is_dash(output)) else {
@@ -167,6 +168,27 @@ impl Import {
         self.name.clone().unwrap_or_else(|| stem.strip_suffix(".map").map_or(stem.clone(), str::to_owned))
     }
 
+    /// The size of a MovingAI map's cells, metres.
+    fn cell(&self) -> f64 {
+        self.metres_per_cell.unwrap_or(1.0)
+    }
+
+    /// What is said where nobody says how large things are.
+    fn warning(&self, kind: ImportFormat, assumed_unit: Option<f64>) -> Option<String> {
+        let file = shown(&self.file);
+        let of_cells = matches!(kind, ImportFormat::Movingai | ImportFormat::Scen) && self.metres_per_cell.is_none();
+        let of_cells = of_cells.then(|| {
+            format!("{file}: the map says no size, so a cell was taken for 1 m; --metres-per-cell says how large it is")
+        });
+        let of_drawing = |unit: f64| {
+            format!(
+                "{file}: the drawing says no physical size, so a unit of it was taken for {unit} m; --metres-per-unit \
+                 says how long it is"
+            )
+        };
+        of_cells.or_else(|| assumed_unit.map(of_drawing))
+    }
+
     fn style(&self) -> CellStyle {
         if self.hollow { CellStyle::Hollow } else { CellStyle::Solid }
     }
@@ -201,7 +223,7 @@ impl Import {
     }
 
     fn movingai(&self, file: &str, text: &str, name: &str) -> Result<Imported, Failure> {
-        let cells = movingai(file, text, self.metres_per_cell).map_err(refused)?;
+        let cells = movingai(file, text, self.cell()).map_err(refused)?;
         cells.world(file, name, self.style()).map_err(refused)
     }
 
@@ -212,10 +234,10 @@ impl Import {
         let places = [self.beside(&scenario.map), self.beside(base), self.file.with_extension("")];
         let map = places.iter().find(|path| path.is_file()).unwrap_or(&places[1]);
         let map_name = map.display().to_string();
-        let cells = movingai(&map_name, &read_text_of(map, MAX_TEXT)?, self.metres_per_cell).map_err(refused)?;
+        let cells = movingai(&map_name, &read_text_of(map, MAX_TEXT)?, self.cell()).map_err(refused)?;
         let size = [cells.grid.columns(), cells.grid.rows()].map(u64::from);
         let mut imported = cells.world(&map_name, name, self.style()).map_err(refused)?;
-        scenario.put_places(file, size, self.metres_per_cell, &mut imported).map_err(refused)?;
+        scenario.put_places(file, size, self.cell(), &mut imported).map_err(refused)?;
         Ok(imported)
     }
 
