@@ -103,7 +103,7 @@ impl Info {
             program: &program,
             log: (log.kind() == LogKind::Digests).then_some("digest"),
             sealed_digest: sealed.map(|digest| digest.to_string()),
-            damage: damage.as_deref(),
+            damage: damage.as_ref().map(|damage| damage.words.as_str()),
         };
         if self.json {
             data.json(&contents)?;
@@ -114,7 +114,7 @@ impl Info {
         Ok(match &damage {
             None => Outcome::Done,
             Some(damage) => {
-                say(format!("{damage}\n`motion-lab record --resume` makes it whole."));
+                say(format!("{damage}\n{}", damage.next()));
                 Outcome::Recovered
             }
         })

@@ -11,6 +11,7 @@ use motion_lab_core::worlds::World;
 use crate::cli::commands::plan::planners::planners;
 use crate::cli::support::choices::WorldNames;
 use crate::cli::support::input::read_bytes_if;
+use crate::cli::support::log_source::{begins_as_one, other_file};
 use crate::cli::support::world_source::find_world;
 use crate::cli::{Failure, Outcome};
 
@@ -54,7 +55,9 @@ fn found(what: &str) -> Result<Opened, Failure> {
         }
     } else {
         // what can't be read is said here rather than in the window
-        read_bytes_if(&path, u64::MAX, |_| false)?;
+        if let (false, Some(other)) = (begins_as_one(&read_bytes_if(&path, u64::MAX, |_| false)?), other_file(&path)) {
+            return Err(other);
+        }
         Opened::Log(path)
     })
 }

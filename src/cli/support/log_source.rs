@@ -1,9 +1,13 @@
 //! A log named on the command line.
 
+use std::fmt;
+use std::fs::{self, File};
+use std::io::Read as _;
 use std::path::Path;
 
 use clap::Args;
-use motion_lab_sim::run::{Digest, Log, LogError, LogKind, ReadLog};
+use motion_lab_sim::plans::{MAX_PATH_BYTES, PathFile};
+use motion_lab_sim::run::{DamageKind, Digest, Log, LogError, LogKind, ReadLog};
 
 use super::input::{read_bytes_if, shown};
 use super::progress::CommandProgress;
@@ -21,16 +25,40 @@ pub struct LogSource {
     /// The run's digest that its end seals; `None` without one.
     pub sealed: Option<Digest>,
     /// The damage to the file, if it is not whole.
-    pub damage: Option<String>,
+    pub damage: Option<LogDamage>,
+}
+
+/// The damage to a log's file.
+pub struct LogDamage {
+    /// What is wrong with the file, by its name.
+    pub words: String,
+    kind: DamageKind,
+}
+
+impl fmt::Display for LogDamage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words)
+    }
+}
+
+impl LogDamage {
+    /// What to do about it. A recording that was cut off goes on; one that somebody changed is not made whole as if it
+    /// were the one that was recorded.
+    pub fn next(&self) -> &'static str {
+        match self.kind {
+            DamageKind::Cut => "`motion-lab record --resume` makes it whole.",
+            _ => "Do not trust what comes after: ask for the log as it was recorded.",
+        }
+    }
 }
 
 /// Least size of a log whose reading shows how far it has come, bytes.
 const LONG: usize = 2 << 20;
 
 /// Says what is wrong with a log that is not whole, and what was done with its sealed beginning: `compared`.
-pub fn say_damage(damage: Option<&String>, done: &str) {
+pub fn say_damage(damage: Option<&LogDamage>, done: &str) {
     if let Some(damage) = damage {
-        say(format!("{damage}\nThis much is {done}; `motion-lab record --resume` makes it whole."));
+        say(format!("{damage}\nThis much is {done}. {}", damage.next()));
     }
 }
 
@@ -67,10 +95,10 @@ fn read(path: &Path, otherwise: impl FnOnce(LogError) -> Result<LogSource, Failu
     match Log::read_mcap_with(&bytes, |checked| progress.at(checked)) {
         Ok(read) => Ok(LogSource::of(read, None)),
         Err(LogError::Damaged(damaged)) => {
-            let message = format!("{}: {damaged}", shown(path));
+            let damage = LogDamage { words: format!("{}: {damaged}", shown(path)), kind: damaged.kind };
             match damaged.recovered {
-                Some(read) => Ok(LogSource::of(read, Some(message))),
-                None => Err(Failure::input(message, "Record the run again.")),
+                Some(read) => Ok(LogSource::of(read, Some(damage))),
+                None => Err(Failure::input(damage, "Record the run again.")),
             }
         }
         Err(error) => otherwise(error),
@@ -78,7 +106,7 @@ fn read(path: &Path, otherwise: impl FnOnce(LogError) -> Result<LogSource, Failu
 }
 
 impl LogSource {
-    fn of(read: ReadLog, damage: Option<String>) -> Self {
+    fn of(read: ReadLog, damage: Option<LogDamage>) -> Self {
         let ReadLog { log, program, sealed, .. } = read;
         LogSource { log, program, sealed, damage }
     }
@@ -117,7 +145,37 @@ pub fn digest_of(log: &Log) -> Result<Digest, Failure> {
     log.digest().ok_or_else(|| Failure::internal(LogError::NoFrames))
 }
 
+/// The failure of a file that is no log and that is known for what it is: a path, a sweep's table or part, a world, a
+/// script. `None` for any other.
+pub fn other_file(path: &Path) -> Option<Failure> {
+    let about = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+    let mut beginning = Vec::new();
+    File::open(path).ok()?.take(4096).read_to_end(&mut beginning).ok()?;
+    let beginning = String::from_utf8_lossy(&beginning);
+    let is_small = about.len() <= MAX_PATH_BYTES as u64;
+    let is_path = || is_small && fs::read_to_string(path).is_ok_and(|text| PathFile::read(&text).is_ok());
+    let file = shown(path);
+    let (what, next) = if beginning.trim_start().starts_with('{') && is_path() {
+        let next = "The window shows it: *Open a path* in Plan judges it by the exact scene. `motion-lab plan --record \
+            RUN.mcap` makes the log of a run that plays a path.";
+        ("a path, not a run log", next.to_owned())
+    } else if beginning.starts_with("PAR1") {
+        ("a table, not a run log", format!("Prove a sweep's table: motion-lab sweep verify {file}"))
+    } else if beginning.starts_with("motion-lab sweep part ") {
+        ("a part of a sweep, not a run log", format!("Prove it: motion-lab sweep verify {file}"))
+    } else if path.extension().is_some_and(|ending| ending == "ron") {
+        let next = format!("Check a world: motion-lab world check {file}. A script: motion-lab script check {file}.");
+        ("a text in RON, as a world or a script is, not a run log", next)
+    } else {
+        return None;
+    };
+    Some(Failure::input(format!("{file}: this is {what}"), next))
+}
+
 fn refused(path: &Path, error: &LogError) -> Failure {
+    if let (LogError::NotALog, Some(other)) = (error, other_file(path)) {
+        return other;
+    }
     let file = shown(path);
     let next = match error {
         LogError::NotALog => "Name a file that `motion-lab record -o` wrote.".to_owned(),

@@ -111,3 +111,66 @@ fn a_log_through_a_pipe_is_read_whole() {
     assert!(run(&["verify", pipe.to_str().unwrap()]).done().starts_with("20 of 20 ticks"));
     writer.join().unwrap().unwrap();
 }
+
+/// Whoever changed a log is not told how to make it look whole.
+#[test]
+fn a_changed_log_is_not_to_be_resumed_and_a_cut_one_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    run_in(at, &["record", "--ticks", "20", "-o", "run.mcap"]).done();
+    let bytes = fs::read(at.join("run.mcap")).unwrap();
+    let commands: [&[&str]; 4] = [
+        &["verify", "other.mcap"],
+        &["info", "other.mcap"],
+        &["stats", "other.mcap"],
+        &["diff", "other.mcap", "run.mcap"],
+    ];
+    // a length among them, which leads beyond the end of the file: wherever a byte was changed
+    let mut changed = 0;
+    for place in (bytes.len() / 2..bytes.len()).step_by(397) {
+        let mut other = bytes.clone();
+        other[place] ^= 0x80;
+        fs::write(at.join("other.mcap"), other).unwrap();
+        let verified = run_in(at, commands[0]);
+        assert!(verified.code != Some(0) && !verified.err.contains("--resume"), "byte {place}: {}", verified.err);
+        changed += u32::from(verified.err.contains("the log has been changed after byte"));
+    }
+    assert!(changed > 20, "{changed}");
+    for command in commands {
+        let said = run_in(at, command);
+        assert!(said.err.contains("ask for the log as it was recorded"), "{command:?}: {}", said.err);
+        assert!(!said.err.contains("--resume"), "{command:?}: {}", said.err);
+    }
+    fs::write(at.join("other.mcap"), &bytes[..bytes.len() * 2 / 3]).unwrap();
+    for command in &commands[..3] {
+        let said = run_in(at, command);
+        assert!(said.err.contains("`motion-lab record --resume` makes it whole"), "{command:?}: {}", said.err);
+    }
+}
+
+#[test]
+fn another_file_of_the_lab_is_called_what_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let plan = ["plan", "--robot", "reach", "--from", "2.0,0", "--to", "2.0,0.3", "-o", "path.json"];
+    run_in(at, &plan).done();
+    let study = "Sweep(version: 1, worlds: [\"lot\"], ticks: 2, axes: [(vary: \"seed\", over: Range(0, 2))])";
+    fs::write(at.join("study.ron"), study).unwrap();
+    run_in(at, &["sweep", "study.ron", "-o", "parts"]).done();
+    run_in(at, &["sweep", "merge", "parts", "-o", "all.parquet"]).done();
+    run_in(at, &["world", "show", "lot", "-o", "lot.ron"]).done();
+    fs::write(at.join("other.json"), "{\"legs\": 3}").unwrap();
+    for (file, what, next) in [
+        ("path.json", "this is a path, not a run log", "motion-lab plan --record"),
+        ("all.parquet", "this is a table, not a run log", "motion-lab sweep verify all.parquet"),
+        ("parts/part-1-of-1.sweep", "this is a part of a sweep", "motion-lab sweep verify parts/part-1-of-1.sweep"),
+        ("lot.ron", "a world or a script is, not a run log", "motion-lab world check lot.ron"),
+        ("other.json", "this is not a run log", "Name a file that `motion-lab record -o` wrote"),
+    ] {
+        for command in ["verify", "info", "replay"] {
+            let refused = run_in(at, &[command, file]).failed(3);
+            assert!(refused.contains(&format!("{file}: ")) && refused.contains(what), "{command}: {refused}");
+            assert!(refused.contains(next), "{command}: {refused}");
+        }
+    }
+}

@@ -40,7 +40,7 @@ impl Log {
     /// As [`read_mcap`](Self::read_mcap).
     pub fn read_mcap_with(file: &[u8], mut on_piece: impl FnMut(u64)) -> Result<ReadLog, LogError> {
         let file = &*log_bytes(file)?;
-        let records = first_piece(file)?.map_err(|kind| damaged(None, 0, kind))?;
+        let records = first_piece(file)?.map_err(|kind| damaged(None, 0, likely(file, kind)))?;
         let preamble = Preamble::read(&records, frame_of(&records, FORMAT_VERSION, &ObstacleStates::new()))?;
         let recipe = preamble.recipe.clone();
         let (start, recorded) = match &preamble.initial {
@@ -78,12 +78,12 @@ impl Log {
                     at += encoder.piece().len();
                     on_piece(at as u64);
                 }
-                Err(kind) => return Err(damaged(Some(read), at, kind)),
+                Err(kind) => return Err(damaged(Some(read), at, likely(file, kind))),
             }
         }
         match end(file, at, &mut encoder, &read.log.recorded)? {
             Ok(sealed) => with_digest(ReadLog { sealed, ..read }, run.as_ref()),
-            Err(kind) => Err(damaged(Some(read), at, kind)),
+            Err(kind) => Err(damaged(Some(read), at, likely(file, kind))),
         }
     }
 }
@@ -124,6 +124,11 @@ fn first_piece(file: &[u8]) -> Result<Result<Vec<Record<'_>>, DamageKind>, LogEr
 fn is_export(file: &[u8]) -> bool {
     record_at(file, MAGIC.len())
         .is_some_and(|r| r.opcode == opcode::HEADER && Cursor(r.content).str() == Some(EXPORT_PROFILE))
+}
+
+/// What probably happened: a file with an end was not cut off, wherever a record's length leads.
+fn likely(file: &[u8], kind: DamageKind) -> DamageKind {
+    if file.len() > MAGIC.len() && file.ends_with(MAGIC) { DamageKind::Changed } else { kind }
 }
 
 fn damaged(recovered: Option<ReadLog>, sealed_bytes: usize, kind: DamageKind) -> LogError {
