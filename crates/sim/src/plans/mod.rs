@@ -19,6 +19,7 @@
 mod attempt;
 mod bug1_sensor;
 mod checker_name;
+mod corners;
 mod drawn;
 mod judged;
 mod making;
