@@ -1,7 +1,7 @@
 //! Certificates: proofs that edges are free, and their verifier.
 
 use numpy::PyArray2;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -96,16 +96,18 @@ impl PyCertificate {
         })
     }
 
-    /// Check the proof by code that did not make it, against the distances of the scene. Returns where the proof ends:
-    /// 1.0 when the whole edge is proven free.
+    /// Check the proof by code that did not make it, against the distances of the scene. Returns a `Proven`: where the
+    /// proof ends, 1.0 when the whole edge is proven free. It is true only then: `holds` says so too, and `up_to` is
+    /// the number.
     ///
     /// Raises Error, with the first step that fails, for a proof that proves not what it claims.
-    fn verify(&self, py: Python<'_>) -> PyResult<f64> {
-        with_checker!(&self.checker.bind(py).get().checker, c => {
+    fn verify<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let until = with_checker!(&self.checker.bind(py).get().checker, c => {
             let [a, b] = &self.ends;
             let ends = [configuration(py, c.robot(), "a", a)?, configuration(py, c.robot(), "b", b)?];
             py.detach(|| verified(c, &ends, &self.certificate)).map_err(Error::new_err)
-        })
+        })?;
+        py.import("motion_lab._answers")?.getattr("Proven")?.call1((until,))
     }
 
     /// The steps, `(n, 3)`: where each begins and ends on the edge, from 0 to 1, and the clearance along it, metres.
@@ -140,6 +142,14 @@ impl PyCertificate {
 
     fn __len__(&self) -> usize {
         self.certificate.steps().len()
+    }
+
+    /// A certificate is neither true nor false: it may prove a part of the edge, and nobody has checked it.
+    ///
+    /// Raises TypeError.
+    fn __bool__(&self) -> PyResult<bool> {
+        let words = "a certificate is neither true nor false: ask certificate.verify(), which is true for a whole edge";
+        Err(PyTypeError::new_err(words))
     }
 
     fn __repr__(&self) -> String {

@@ -8,13 +8,13 @@ use pyo3::exceptions::{PyFileExistsError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use motion_lab_core::configuration::Configuration;
-use motion_lab_core::planning::Effort;
+use motion_lab_core::configuration::{AnyConfiguration, Configuration};
+use motion_lab_core::planning::{Bounds, Effort};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_core::worlds::{Resident, World};
 use motion_lab_sim::capture::{Paper, PlanOutcome, PlanSheet, plan, proven, unit};
-use motion_lab_sim::plans::{FileLeg, PathFile, PathLengths, PlanAttempt, PlannerName, Task};
+use motion_lab_sim::plans::{FileLeg, OwnPlanner, PathFile, PathLengths, PlanAttempt, PlannerName, Task};
 use motion_lab_sim::run::{LogKind, Recipe};
 use motion_lab_sim::tour::TourConfig;
 
@@ -22,14 +22,15 @@ use crate::errors::{Error, RunError};
 use crate::file::replace;
 use crate::natural::counted;
 use crate::picture::{PyPicture, theme};
+use crate::planning::{any_robot, check_clearance, end, no_path, place};
 use crate::recording::recorded;
-use crate::robot::LabRobot;
+use crate::robot::{LabRobot, PyRobot};
 use crate::run::PyRun;
 
 /// The width of a picture, pixels.
 const WIDTH: u32 = 640;
 
-/// A path from a start to a goal whose legs are all proven free. `plan` makes it.
+/// A path from a start to a goal whose legs are all proven free. `plan` makes it, and `Path.of` of corners.
 ///
 /// A leg is a straight line in the robot's coordinates, angles the short way round; of a car what it drives under one
 /// control.
@@ -38,6 +39,7 @@ pub struct PyPath {
     robot: LabRobot,
     task: Task,
     planner: PlannerName,
+    clearance_asked: f64,
     seed: u64,
     legs: Vec<FileLeg>,
     lengths: PathLengths,
@@ -46,10 +48,15 @@ pub struct PyPath {
 }
 
 impl PyPath {
-    /// The path that an attempt has found.
-    pub fn new(robot: LabRobot, task: Task, planner: PlannerName, seed: u64, attempt: Box<dyn PlanAttempt>) -> Self {
+    /// The path that an attempt has found, and the clearance that was asked of it.
+    pub fn new(
+        (robot, task): (LabRobot, Task),
+        (planner, clearance_asked): (PlannerName, f64),
+        seed: u64,
+        attempt: Box<dyn PlanAttempt>,
+    ) -> Self {
         let (legs, lengths, effort) = (attempt.legs(), attempt.lengths(), attempt.effort());
-        PyPath { robot, task, planner, seed, legs, lengths, effort, attempt: Mutex::new(attempt) }
+        PyPath { robot, task, planner, clearance_asked, seed, legs, lengths, effort, attempt: Mutex::new(attempt) }
     }
 
     /// Works with the attempt, with the interpreter's lock released.
@@ -106,6 +113,39 @@ pub fn effort_dict(py: Python<'_>, effort: Effort) -> PyResult<Bound<'_, PyDict>
 
 #[pymethods]
 impl PyPath {
+    /// The path of the straight lines through corners, `(k, d)`: configurations of metres and radians, angles the short
+    /// way round, from its start to its goal. Every line is proven free as those of `plan` are, so a path from
+    /// elsewhere has its proof. It takes a `Checker`, or a `World` or the name of one, and a `robot`; `clearance` is
+    /// how far the path has to keep from every obstacle, metres.
+    ///
+    /// Raises NoPath, which names the first line that is not proven free, and what it hits; Error for a car, which
+    /// drives no straight lines; ConfigurationError for a corner that is none of the robot's configurations.
+    #[staticmethod]
+    #[pyo3(signature = (checker, corners, *, robot = None, clearance = 0.0))]
+    fn of(
+        py: Python<'_>,
+        checker: &Bound<'_, PyAny>,
+        corners: &Bound<'_, PyAny>,
+        robot: Option<&Bound<'_, PyRobot>>,
+        clearance: f64,
+    ) -> PyResult<Self> {
+        check_clearance(Some(clearance))?;
+        let (world, scene, robot) = place(checker, robot)?;
+        let corners = corners.try_iter()?.map(|corner| end(&robot, "corners", &corner?));
+        let corners: Vec<AnyConfiguration> = corners.collect::<PyResult<_>>()?;
+        let (Some(start), Some(goal)) = (corners.first(), corners.last()) else {
+            return Err(PyValueError::new_err("corners is empty: a path has a start and a goal"));
+        };
+        let (lab, ends) = (any_robot(&robot), [*start, *goal]);
+        let in_scene = Task::in_scene(lab.title(), lab, (world, scene), ends);
+        let task = Task { tube: 0.0, clearance: Some(clearance), ..in_scene };
+        let mut attempt = task.attempt_through(&corners).map_err(|reason| no_path(py, &reason, None))?;
+        let solved = py.detach(|| attempt.solve(&Bounds::of_iterations(1)));
+        solved.map_err(|reason| no_path(py, &reason, Some(attempt.effort())))?;
+        let name = PlannerName::Own(OwnPlanner::of_corners());
+        Ok(PyPath::new((robot, task), (name, clearance), 0, attempt))
+    }
+
     /// The start and the ends of the legs, shape `(k, d)`: metres and radians, in the robot's coordinates.
     #[getter]
     fn corners<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
@@ -149,7 +189,14 @@ impl PyPath {
         self.lengths.clearance
     }
 
-    /// The planner's name.
+    /// The clearance that was asked of the path, metres: what was said, or what is usual for its planner, which may
+    /// keep more by itself. Planners that were asked for another are not compared alike.
+    #[getter]
+    fn clearance_asked(&self) -> f64 {
+        self.clearance_asked
+    }
+
+    /// The planner's name; `corners` of a path that was made of them.
     #[getter]
     fn planner(&self) -> &'static str {
         self.planner.id()
@@ -266,6 +313,11 @@ impl PyPath {
 
     fn __len__(&self) -> usize {
         self.legs.len()
+    }
+
+    /// A path is true, also one that stays where it is.
+    fn __bool__(&self) -> bool {
+        true
     }
 
     fn __repr__(&self) -> String {

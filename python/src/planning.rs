@@ -43,18 +43,18 @@ pub fn planner_names() -> Vec<&'static str> {
 /// `planner` is one of `planner_names()`; if left out `rrt-connect`, for a car `hybrid-a-star`. Or it is a planner of
 /// yours for any robot but a car: an object, or its class, with a `name` and a method `advance(search)`, called for
 /// each iteration until it has taken a path; `draws_samples` is True of one that joins samples. What it raises is
-/// raised.
+/// raised; one that gives up raises `NoPath` with its reason.
 ///
 /// `seed`, 2005, is what the samples follow from: the same seed gives the same path on every machine. A rover's heading
 /// does not matter: its path is that of a disc, all headings 0. A car's path ends within 0.1 m and 0.05 rad of its
 /// goal.
 ///
 /// `clearance` is how far the path keeps from every obstacle, metres; if left out 0.001 m by planners that draw
-/// samples, if start and goal have it, else 0. `budget` is the greatest number of iterations, 100,000 if left out
-/// (20,000 for `hybrid-a-star`); with it `rrt-star`, `informed-rrt-star` and `prm` go on to there and shorten their
-/// path. `tube` is how much larger a disc or a rover is planned, metres, as `motion-lab plan --tube`, which says 0.02.
-/// `shorten` shortens the path, as certified as before, by shortcuts of that seed and cut corners; a car's it leaves as
-/// it is.
+/// samples, if start and goal have it, else 0; to compare planners alike, say one. `budget` is the greatest number of
+/// iterations, 100,000 if left out (20,000 for `hybrid-a-star`); with it `rrt-star`, `informed-rrt-star` and `prm` go
+/// on to there and shorten their path. `tube` is how much larger a disc or a rover is planned, metres, as `motion-lab
+/// plan --tube`, which says 0.02. `shorten` shortens the path, as certified as before, by shortcuts of that seed and
+/// cut corners; a car's it leaves as it is.
 ///
 /// Raises NoPath, which says why there is none, with `effort`, what was done for it, as a path has it, None where there
 /// was no problem; Error for a planner that does not plan for this robot;
@@ -91,13 +91,12 @@ pub fn plan(
             }
         },
     };
-    if let Some(kept) = clearance.filter(|kept| !(0.0..=MAX_CLEARANCE).contains(kept)) {
-        return Err(PyValueError::new_err(format!("clearance {kept}: it must be from 0 to {MAX_CLEARANCE} m")));
-    }
+    check_clearance(clearance)?;
     if !(0.0..=1.0).contains(&tube) {
         return Err(PyValueError::new_err(format!("tube {tube}: it must be from 0 to 1 m")));
     }
     let task = Task { tube, clearance, ..Task::in_scene(lab.title(), lab, (world, scene), ends) };
+    let asked = clearance.unwrap_or_else(|| task.usual_clearance(name.draws_samples()));
     let made = py.detach(|| match &own {
         Some(own) => task.attempt_by_lines(own, name.draws_samples(), seed),
         None => task.attempt(name, seed),
@@ -112,11 +111,19 @@ pub fn plan(
     if shorten {
         py.detach(|| attempt.shorten(seed));
     }
-    Ok(PyPath::new(robot, task, name, seed.0, attempt))
+    Ok(PyPath::new((robot, task), (name, asked), seed.0, attempt))
+}
+
+/// Refuses a clearance that is none.
+pub fn check_clearance(clearance: Option<f64>) -> PyResult<()> {
+    match clearance.filter(|kept| !(0.0..=MAX_CLEARANCE).contains(kept)) {
+        Some(kept) => Err(PyValueError::new_err(format!("clearance {kept}: it must be from 0 to {MAX_CLEARANCE} m"))),
+        None => Ok(()),
+    }
 }
 
 /// Why there is no path, as it is raised.
-fn no_path(py: Python<'_>, reason: &LabNoPath, effort: Option<Effort>) -> PyErr {
+pub fn no_path(py: Python<'_>, reason: &LabNoPath, effort: Option<Effort>) -> PyErr {
     match reason {
         LabNoPath::Unsuited(_) => Error::new_err(reason.to_string()),
         reason => with_effort(py, NoPath::new_err(reason.to_string()), effort),
@@ -128,7 +135,10 @@ fn with_effort(py: Python<'_>, raised: PyErr, effort: Option<Effort>) -> PyErr {
 }
 
 /// The world, its obstacles under an index, and the robot that a path is planned for.
-fn place(given: &Bound<'_, PyAny>, robot: Option<&Bound<'_, PyRobot>>) -> PyResult<(Arc<World>, Arc<Scene>, LabRobot)> {
+pub fn place(
+    given: &Bound<'_, PyAny>,
+    robot: Option<&Bound<'_, PyRobot>>,
+) -> PyResult<(Arc<World>, Arc<Scene>, LabRobot)> {
     let (world, robot) = match (given.cast::<PyChecker>(), robot) {
         (Ok(checker), None) => {
             let checker = checker.get();
@@ -150,7 +160,7 @@ fn named(name: &str) -> PyResult<PlannerName> {
 }
 
 /// The lab's robot for planners: a disc is the rover's body.
-fn any_robot(robot: &LabRobot) -> AnyRobot {
+pub fn any_robot(robot: &LabRobot) -> AnyRobot {
     match *robot {
         LabRobot::Disc(disc) => AnyRobot::Rusty(Rusty { body_radius: disc.radius, ..RUSTY }),
         LabRobot::Rusty(rover) => AnyRobot::Rusty(rover),
@@ -161,7 +171,7 @@ fn any_robot(robot: &LabRobot) -> AnyRobot {
 }
 
 /// One end of a path.
-fn end(robot: &LabRobot, name: &'static str, given: &Bound<'_, PyAny>) -> PyResult<AnyConfiguration> {
+pub fn end(robot: &LabRobot, name: &'static str, given: &Bound<'_, PyAny>) -> PyResult<AnyConfiguration> {
     let row = match robot.row_kind().read(name, given)? {
         Given::One(row) => row,
         Given::Many(_) => return Err(PyTypeError::new_err(format!("{name} is one configuration, not many"))),

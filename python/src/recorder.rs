@@ -123,12 +123,15 @@ impl PyRecorder {
     }
 
     /// How many inputs and changes were refused so far, those that raised among them, and why the first was, in words:
-    /// `(0, None)` if none was. Going back forgets none.
+    /// `(0, None)` if none was, which is false. Going back forgets none.
     #[getter]
-    fn refusals(&self) -> PyResult<(u64, Option<String>)> {
-        let run = self.now()?;
-        let refusals = run.refusals();
-        Ok((refusals.count(), refusals.first().map(ToString::to_string)))
+    fn refusals<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let (count, first) = {
+            let run = self.now()?;
+            let refusals = run.refusals();
+            (refusals.count(), refusals.first().map(ToString::to_string))
+        };
+        py.import("motion_lab._answers")?.getattr("Refusals")?.call1((count, first))
     }
 
     /// Go on by a tick, or by `n`; returns the tick then.

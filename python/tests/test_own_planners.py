@@ -269,3 +269,20 @@ def test_planners_are_compared_by_rows():
     assert list(rows[0]) == list(without[0]) == list(overlap[0])
     with pytest.raises(ValueError, match="no planner"):
         ml.compare(["rtt"], "workbench", *POST, robot=ml.Reach())
+
+
+def test_who_gives_up_has_a_row_and_clearance_is_asked_of_all_alike():
+    def give_up(search):
+        search.reach(0, search.goal)
+        raise ml.NoPath("it has no patience")
+
+    def how(**more):
+        return ml.compare([of(give_up), Detour, "a-star"], "workbench", *ENDS, robot=ml.Reach(), seeds=[1], **more)
+
+    gave_up, detour, grid = how()
+    assert (gave_up["solved"], gave_up["reason"], gave_up["edges"]) == (False, "it has no patience", 1)
+    # planners that draw no samples are asked for nothing, whether the lab's or one's own
+    assert [row["clearance_asked_m"] for row in (gave_up, detour, grid)] == [None, 0.001, 0.0]
+    assert [row["clearance_asked_m"] for row in how(clearance=0.002)] == [0.002] * 3
+    assert all(row["clearance_m"] > 0.002 for row in how(clearance=0.002) if row["solved"])
+    assert list(gave_up) == list(detour) == list(grid)

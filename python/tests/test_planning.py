@@ -269,3 +269,43 @@ def test_a_path_shows_itself_in_a_notebook():
     assert path._repr_html_().startswith('<img src="data:image/svg+xml;base64,')
     assert path.plot(theme="dark").svg != path.plot().svg
     assert repr(path).startswith(f"<Path of {len(path)} legs, {path.length:.3f} rad, by rrt-connect: clearance 0.")
+
+
+def test_corners_from_elsewhere_are_a_path_with_its_proof(tmp_path):
+    found = ml.plan("apartment", (1.5, 5.75), (9.75, 6.25), robot=ml.Disc())
+    path = ml.Path.of("apartment", found.corners, robot=ml.Disc())
+    assert path.corners.tobytes() == found.corners.tobytes() and path.planner == "corners"
+    assert 0.0 < path.verify() == path.clearance and path.length == pytest.approx(found.length, abs=1e-12)
+    assert (path.clearance_asked, found.clearance_asked) == (0.0, 0.001)
+    # it is written, and played where there is room for it
+    path.write(tmp_path / "path.json")
+    assert json.loads((tmp_path / "path.json").read_text())["planner"] == "corners"
+    arm = ml.Checker("workbench", ml.Reach())
+    corners = [(2.0, 0.0), (2.0, 0.3), (2.2, 0.3)]
+    assert ml.Path.of(arm, corners).play().verify()
+    assert len(ml.Path.of(arm, np.array(corners))) == 2
+    # through the post: which line, and what it hits
+    with pytest.raises(ml.NoPath, match="leg 1 hits the post with part") as refused:
+        ml.Path.of(arm, [(2.0, 0.3), (2.0, 0.0), (3.1, 0.0)])
+    assert refused.value.effort["edges"] == 2 and refused.value.effort["free"] == 1
+    # a clearance that is asked for is kept or refused
+    clear = ml.Path.of(arm, corners).clearance
+    assert ml.Path.of(arm, corners, clearance=0.9 * clear).clearance_asked == 0.9 * clear
+    with pytest.raises(ml.NoPath):
+        ml.Path.of(arm, corners, clearance=1.1 * clear)
+    # a path that stays where it is is one, and true
+    stays = ml.Path.of(arm, [(2.0, 0.0)])
+    assert stays and stays.length == 0.0 and stays.verify() > 0.0
+    for corners, error, words in [
+        ([], ValueError, "corners is empty"),
+        ((2.0, 0.0), ValueError, "corners has no axis"),
+        ([(2.0, 0.0, 0.0)], ValueError, "corners has 3 coordinates"),
+        ([(2.0, float("nan"))], ml.ConfigurationError, "corners is"),
+        (7, TypeError, "iterable"),
+    ]:
+        with pytest.raises(error, match=words):
+            ml.Path.of(arm, corners)
+    with pytest.raises(ValueError, match="clearance -1"):
+        ml.Path.of(arm, [(2.0, 0.0)], clearance=-1)
+    with pytest.raises(ml.Error, match="no car can drive"):
+        ml.Path.of("lot", [(6.5, 2.5, 0.0), (7.0, 2.5, 0.0)], robot=ml.Hitch())

@@ -246,3 +246,32 @@ def test_a_row_that_is_none_is_named_in_its_own_axes_also_where_it_is_broadcast(
             with pytest.raises(ml.ConfigurationError) as refused:
                 ask(a, b)
             assert (refused.value.name, refused.value.row) == (name, row)
+
+
+def test_a_proof_of_a_part_is_not_true(disc):
+    whole, blocked = disc.certificate((2, -4), (2, 4)), disc.certificate((1.5, 1), (4.5, 1))
+    proof = whole.verify()
+    assert proof and proof.holds is True and proof.up_to == 1.0 and isinstance(proof, ml.Proven)
+    part = blocked.verify()
+    assert not part and part.holds is False and 0.0 < part.up_to == part <= 1.25 / 3
+    assert type(part.up_to) is float and f"{part:.3f}" == f"{part.up_to:.3f}"
+    assert str(part) == str(part.up_to) and repr(part) == f"Proven(up_to={part.up_to!r}, holds=False)"
+    again = pickle.loads(pickle.dumps(part))
+    assert again == part and not again
+    assert not ml.Certificate(disc, (2, -4), (2, 4), np.zeros((0, 3))).verify()
+
+
+def test_what_would_be_true_whatever_it_says_is_not_asked(disc):
+    through = ((1.5, 1), (4.5, 1))
+    edge = disc.edge(*through)
+    assert edge.verdict == ml.HIT and disc.edge((2, -4), (2, 4)).verdict == ml.FREE == 0
+    for answer, words in [
+        (disc.certificate(*through), r"certificate\.verify\(\)"),
+        (edge, "edge_free"),
+        (disc.edge([through[0]], [through[1]]), "edge_free"),
+        (edge.verdict, "compare it"),
+        (ml.FREE, "compare it"),
+        (disc.witness(through[0]), "compare its distance"),
+    ]:
+        with pytest.raises(TypeError, match=f"neither true nor false.*{words}"):
+            bool(answer)

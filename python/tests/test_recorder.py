@@ -171,10 +171,11 @@ def test_what_no_script_could_hold_is_refused_and_changes_nothing():
 
 def test_what_only_the_tick_refuses_is_counted():
     live = ml.Recorder()
-    assert live.refusals == (0, None)
+    assert live.refusals == (0, None) and not live.refusals
     live.input("Reach", teleport=(1.0, 0.0))  # onto the block, as driving.ron says
     live.step()
     count, first = live.refusals
+    assert live.refusals and (live.refusals.total, live.refusals.first) == (count, first)
     assert count == 1 and first.startswith('tick 1: robot "Reach" refused Teleport: ')
 
 

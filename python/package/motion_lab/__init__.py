@@ -47,7 +47,7 @@ from ._core import (
 )
 
 if TYPE_CHECKING:
-    from ._answers import FREE, HIT, UNRESOLVED, Edge, Shape, Verdict, Witness
+    from ._answers import FREE, HIT, UNRESOLVED, Edge, Proven, Refusals, Shape, Verdict, Witness
     from ._compare import Planner, compare
     from .widget import Widget as Widget
 
@@ -74,8 +74,10 @@ __all__ = [
     "Picture",
     "Planner",
     "Problem",
+    "Proven",
     "Reach",
     "Recorder",
+    "Refusals",
     "Resident",
     "Robot",
     "Run",
@@ -101,7 +103,9 @@ __all__ = [
 ]
 
 # what is loaded when it is first asked for, and from which module
-_LATER = dict.fromkeys(["FREE", "HIT", "UNRESOLVED", "Edge", "Shape", "Verdict", "Witness"], "_answers")
+_LATER = dict.fromkeys(
+    ["FREE", "HIT", "UNRESOLVED", "Edge", "Proven", "Refusals", "Shape", "Verdict", "Witness"], "_answers"
+)
 _LATER |= dict.fromkeys(["Planner", "compare"], "_compare")
 # not among __all__: it needs anywidget
 _LATER["Widget"] = "widget"

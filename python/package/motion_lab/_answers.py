@@ -1,4 +1,4 @@
-"""The answers that are more than one number: named tuples, and the verdicts on edges."""
+"""The answers that are more than one number, or that are no plain one: named tuples, and the verdicts on edges."""
 
 from enum import IntEnum
 from typing import Any, NamedTuple
@@ -14,6 +14,10 @@ class Verdict(IntEnum):
     UNRESOLVED = 2
     """Neither could be proven: the edge comes too close to contact to tell."""
 
+    def __bool__(self) -> bool:
+        """Raise TypeError: ``FREE`` is the number 0, so that it would be false."""
+        raise TypeError("a verdict is neither true nor false: compare it, as e.verdict == ml.FREE")
+
 
 FREE, HIT, UNRESOLVED = Verdict
 
@@ -25,6 +29,42 @@ class Shape(NamedTuple):
     """An array ``(k, 2)``, metres, counter-clockwise; a disc has one vertex, a segment two."""
     radius: float
     """Metres; 0 for segments, boxes and polygons."""
+
+
+class Proven(float):
+    """How far along an edge a proof holds, from 0.0 to 1.0: a number that is true only where it is the whole edge."""
+
+    __slots__ = ()
+
+    @property
+    def holds(self) -> bool:
+        """Whether the whole edge is proven free."""
+        return self == 1.0
+
+    @property
+    def up_to(self) -> float:
+        """Everything before this parameter of the edge is proven free."""
+        return float(self)
+
+    def __bool__(self) -> bool:
+        return self.holds
+
+    def __repr__(self) -> str:
+        return f"Proven(up_to={float(self)!r}, holds={self.holds})"
+
+    __str__ = float.__repr__
+
+
+class Refusals(NamedTuple):
+    """How many inputs and changes a run refused, and why the first was. It is true when there were any."""
+
+    total: int
+    """How many."""
+    first: str | None
+    """Why the first was, in words; None where there was none."""
+
+    def __bool__(self) -> bool:
+        return self.total > 0
 
 
 class Witness(NamedTuple):
@@ -40,6 +80,10 @@ class Witness(NamedTuple):
     """The number of the robot's part: an arm's link, 1 for a car's trailer; -1 where there is no obstacle."""
     obstacle: Any
     """The number of the obstacle in ``world.obstacles``; -1 where there is none."""
+
+    def __bool__(self) -> bool:
+        """Raise TypeError: any tuple would be true, in contact or not."""
+        raise TypeError("a witness is neither true nor false: compare its distance, or ask checker.intersects(q)")
 
 
 class Edge(NamedTuple):
@@ -59,3 +103,7 @@ class Edge(NamedTuple):
     """The number in ``world.obstacles`` of what it touches; -1 for its own limit, and where no contact is known."""
     gap: Any
     """How far the robot can still move after ``free_until`` in an unresolved edge, metres; 0 in any other."""
+
+    def __bool__(self) -> bool:
+        """Raise TypeError: any tuple would be true, free or not."""
+        raise TypeError("an edge is neither true nor false: ask e.verdict == ml.FREE, or checker.edge_free(a, b)")

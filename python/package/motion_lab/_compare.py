@@ -24,7 +24,11 @@ class Planner(Protocol):
         """Small letters, digits and hyphens; none of ``planner_names()``."""
 
     def advance(self, search: Search, /) -> object:
-        """Go on by an iteration; ``search.take`` and ``take_branch`` end it. What is returned does not matter."""
+        """Go on by an iteration; ``search.take`` and ``take_branch`` end it. What is returned does not matter.
+
+        One that gives up raises ``NoPath`` with its reason: ``plan`` raises it with the effort, and ``compare`` has the
+        reason in the row. Anything else that is raised ends both.
+        """
 
 
 def compare(
@@ -34,9 +38,15 @@ def compare(
     goal: Any,
     *,
     seeds: Iterable[int] = range(100),
+    clearance: float | None = None,
     **how: Any,
 ) -> list[dict[str, Any]]:
     """A row for each planner and seed: what it did, the path's length in its own unit and clearance, or the reason.
+
+    ``clearance`` is what every path has to keep, metres, alike for all planners. Without it each is asked for what is
+    usual for it, which is not the same: 1 mm of the lab's planners that draw samples and of yours with
+    ``draws_samples``, 0 of all others. The column ``clearance_asked_m`` says it, None where there is no path and
+    nobody said one.
 
     The other arguments are those of ``plan``, and what ``plan`` raises is raised, but for NoPath. A class is called for
     a planner of each attempt. Length and clearance are None without a path, the reason is with one.
@@ -51,7 +61,7 @@ def compare(
             own = planner() if isinstance(planner, type) else planner
             path, reason = None, None
             try:
-                path = plan(checker, start, goal, planner=own, seed=seed, **how)
+                path = plan(checker, start, goal, planner=own, seed=seed, clearance=clearance, **how)
                 effort = path.effort
             except NoPath as error:
                 reason = str(error)
@@ -62,8 +72,9 @@ def compare(
                 "solved": path is not None,
                 "time_s": time.perf_counter() - begun,
                 **effort,
-                "length": path.length if path else None,
-                "clearance_m": path.clearance if path else None,
+                "length": None if path is None else path.length,
+                "clearance_m": None if path is None else path.clearance,
+                "clearance_asked_m": clearance if path is None else path.clearance_asked,
                 "reason": reason,
             }
             rows.append(row)
