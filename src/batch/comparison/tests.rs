@@ -152,7 +152,7 @@ fn medians_are_those_of_the_attempts_that_have_a_path() {
         let known = KnownProblem { number: 1, set: "s".into(), bucket: None, optimal: Some(0.5), has_path: None };
         attempt.case = Arc::new(PlanCase { known: Some(known), ..PlanCase::clone(&attempt.case) });
     }
-    attempts[5].path = Err("none".into());
+    attempts[5].path = Err(RunFailure::new(FailureKind::NoPath, "none"));
     let [star, grid] = &comparison.medians(&attempts)[..] else { panic!("two planners") };
     assert_eq!((star.planner.as_str(), star.solved, star.attempts), ("rrt-star", 3, 3));
     assert_eq!((grid.planner.as_str(), grid.solved, grid.attempts), ("a-star", 2, 3));
@@ -286,7 +286,7 @@ fn read_ompl(text: &str) -> (Vec<String>, Vec<(String, Vec<std::collections::BTr
 fn a_log_for_ompl_has_each_run_of_each_planner_in_its_grammar() {
     let comparison = round_the_post();
     let mut attempts = comparison.run(|_| true).unwrap();
-    attempts[4].path = Err("none".into());
+    attempts[4].path = Err(RunFailure::new(FailureKind::NoPath, "none"));
     let logs = comparison.ompl_logs(&attempts, "1.2.3");
     let [(1, log)] = &logs[..] else { panic!("{}", logs.len()) };
     let (head, planners) = read_ompl(log);

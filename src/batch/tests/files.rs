@@ -140,8 +140,7 @@ fn last_place(bytes: &[u8], text: &str) -> usize {
 
 #[test]
 fn no_flipped_bit_of_a_table_changes_a_value_unseen() {
-    let study =
-        study("Sweep(version: 1, warehouse: (robots: 1, seed: 1), axes: [(vary: \"seed\", over: Range(0, 3))])");
+    let study = study("Sweep(version: 1, worlds: [\"lot\"], axes: [(vary: \"seed\", over: Range(0, 3))])");
     let whole = table_of(&study, &[0.5, 2.0, 3.25]);
     let about = VerifiedTable::of(on_disk(&whole)).unwrap();
     assert_eq!(about.rows, 3);
