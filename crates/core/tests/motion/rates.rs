@@ -1,6 +1,7 @@
 //! The check of motion bounds: it accepts the lab's robots, and refuses those whose bounds are wrong.
 
-use motion_lab_core::geometry::Shape;
+use motion_lab_core::collision::Certificate;
+use motion_lab_core::geometry::{Aabb, Shape};
 use motion_lab_core::prelude::*;
 use motion_lab_core::robots::{
     AnyRobot, ConfigurationError, MotionBound, PartRates, RatesError, RatesUse, TICK, check_drive_rates, check_rates,
@@ -163,4 +164,28 @@ fn what_is_missing_not_finite_or_of_another_shape_is_refused() {
     // an error names the part, the edge and the numbers
     let text = check_rates(&Wrong::of(Reach::<2>::choset(), 1, 0.5, 1.0), SAMPLES).unwrap_err().to_string();
     assert!(text.starts_with("part 1 from T2") && text.contains("its speed at 0.") && text.contains(" m, its bound "));
+}
+
+/// Asks all that may call an edge free about a robot whose part has an acceleration that is NaN.
+fn never_free<R: Robot>(robot: R, scene: &Scene, part: usize, a: &R::Configuration, b: &R::Configuration) {
+    assert!(Checker::new(scene.clone(), robot.clone()).edge(a, b).unwrap().is_free(), "with its own bounds it is free");
+    let wrong = Checker::new(scene.clone(), Wrong::of(robot, part, 1.0, f64::NAN));
+    let mut certificate = Certificate::new();
+    let certified = wrong.edge_certified(a, b, &mut certificate).unwrap();
+    let verdicts = [wrong.edge(a, b).unwrap(), certified];
+    assert!(!verdicts.iter().any(EdgeVerdict::is_free) && !wrong.edge_free(a, b), "part {part}: {verdicts:?}");
+    assert_eq!(certificate.steps(), [], "part {part}");
+}
+
+#[test]
+fn a_motion_whose_acceleration_is_no_number_is_never_free() {
+    let empty = Scene::empty(Aabb::new(Point2::origin(), Point2::origin()));
+    let far = empty.clone().with_obstacle_at("post", Pose2::new(90.0, 0.0, 0.0), Shape::Disc { radius: 0.1 });
+    for scene in [&empty, &far] {
+        for part in 0..2 {
+            never_free(Reach::<2>::workbench(), scene, part, &T2::new(0.1, 0.2), &T2::new(0.5, -0.3));
+            let at = |x: f64, theta: f64| HitchCfg { body: Pose2::new(x, 1.0, theta), trailer: Some(theta) };
+            never_free(HITCH.with_trailer(), scene, part, &at(0.0, 0.1), &at(1.0, 0.4));
+        }
+    }
 }

@@ -6,7 +6,7 @@ use super::bisection::{SpeedBounds, pinch};
 use super::conservative_advancement::{MarchQueries, go, hit, march_on, width};
 use super::local_scene::Vicinity;
 use super::place::{At, ContactAhead, Course, MotionStart};
-use super::step::rounding;
+use super::step::{least_proven, rounding};
 use crate::collision::{Certificate, Collision, EdgeVerdict, MarchOptions, ProvenStep, Scene};
 use crate::geometry::{Aabb, Footprint, largest_coordinate};
 use crate::num::{greater, lesser};
@@ -81,7 +81,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
         let mut swept: Option<Aabb> = None;
         for k in all {
             let (sagitta, distance, rounding) = self.clears(&self.around, k, [from, to], f64::INFINITY);
-            least = lesser(distance - sagitta - rounding, least);
+            least = least_proven(distance - sagitta - rounding, least);
             let kept = distance - 2.0 * sagitta - 4.0 * rounding;
             if kept > 0.0 {
                 self.kept = lesser(kept, self.kept);
@@ -122,7 +122,7 @@ impl<'a, M: Motion> Nearby<'a, M> {
         let mut least = below;
         for k in parts {
             let (sagitta, distance, rounding) = self.clears(among, k, step, least);
-            least = lesser(distance - sagitta - rounding, least);
+            least = least_proven(distance - sagitta - rounding, least);
             if least <= 0.0 {
                 break;
             }

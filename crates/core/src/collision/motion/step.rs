@@ -18,14 +18,18 @@ pub(crate) fn step_clearance<M: Motion>(collision: &dyn Collision, motion: &M, f
         let (size, sagitta) = (largest_coordinate([&hull]), motion.sagitta(k, from.s, to.s));
         // a distance that proves more than the parts before do changes nothing
         let dist = collision.distance_of_hull_within(hull, proving(least, sagitta, size));
-        let proven = dist - sagitta - rounding(size, dist);
-        // a NaN bound proves nothing, whatever the other parts are
-        least = if proven.is_nan() { 0.0 } else { lesser(proven, least) };
+        least = least_proven(dist - sagitta - rounding(size, dist), least);
         if least <= 0.0 {
             break;
         }
     }
     least
+}
+
+/// The least of what is proven for one part and for others, metres. NaN, as of a bound that is none, proves nothing
+/// whatever the other parts are: then it is 0.
+pub(crate) fn least_proven(proven: f64, least: f64) -> f64 {
+    if proven.is_nan() { 0.0 } else { lesser(proven, least) }
 }
 
 /// A distance that certainly proves more than this clearance, and so does every greater one, metres; infinity for an
