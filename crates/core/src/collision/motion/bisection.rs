@@ -48,11 +48,11 @@ pub(crate) struct Pinched {
 /// Brackets the first contact after a free place, given a contact farther on. `None` where that takes too long or the
 /// motion up to the bracket is not proven free: the caller falls back to the march.
 ///
-/// `gap` returns a footprint's distance from contact, metres, 0 in contact. `clearance` returns what one step between
-/// two places proves, metres.
+/// `gap` returns a footprint's distance from contact, metres, 0 in contact. `is_proven` returns whether one step
+/// proves the motion free between two places.
 pub(crate) fn pinch<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
-    clearance: impl Fn(At, At) -> f64,
+    is_proven: impl Fn(At, At) -> bool,
     motion: &M,
     pace: SpeedBounds,
     ahead: ContactAhead,
@@ -62,7 +62,7 @@ pub(crate) fn pinch<M: Motion>(
     let mut contact = ahead.contact;
     for _ in 0..CONTACTS {
         let (near, contact_at) = approach(gap_at, pace, from, contact)?;
-        match prove_back(&gap, &clearance, motion, pace, ahead.from, near)? {
+        match prove_back(&gap, &is_proven, motion, pace, ahead.from, near)? {
             Ok(steps) => return Some(Pinched { free_until: near.s, contact_at, steps }),
             Err(earlier) => contact = earlier,
         }
@@ -74,7 +74,7 @@ pub(crate) fn pinch<M: Motion>(
 /// steps, last first, or a contact between the two; `None` where it finds neither.
 fn prove_back<M: Motion>(
     gap: impl Fn(&Footprint) -> f64,
-    clearance: impl Fn(At, At) -> f64,
+    is_proven: impl Fn(At, At) -> bool,
     motion: &M,
     pace: SpeedBounds,
     start: At,
@@ -93,7 +93,7 @@ fn prove_back<M: Motion>(
         let (from, at_from) = loop {
             let from = if h < hi - lo { hi - h } else { lo };
             let at_from = if from == lo { at_lo.clone() } else { motion.footprint_at(from) };
-            if clearance(At::new(from, &at_from), At::new(hi, &at_hi)) > 0.0 {
+            if is_proven(At::new(from, &at_from), At::new(hi, &at_hi)) {
                 break (from, at_from);
             }
             if from > lo && gap(&at_from) <= 0.0 {

@@ -2,7 +2,9 @@
 
 use smallvec::SmallVec;
 
+use super::separation::SweptHull;
 use crate::collision::Scene;
+use crate::collision::narrow::core_lanes::LaneRoom;
 use crate::collision::narrow::nearest::NearestSearch;
 use crate::collision::narrow::pair::touches;
 use crate::geometry::{Aabb, Placed, square};
@@ -51,9 +53,24 @@ impl<'a> Vicinity<'a> {
         if near.is_some() || within <= self.range { near } else { self.in_scene(shape, enough, within) }
     }
 
+    /// A conservative separation test of two places along the motion and all between them: true only if everything is
+    /// farther off than `reach` metres. `false` is inconclusive.
+    pub(crate) fn clears(&self, [from, to]: [&Placed; 2], reach: f64) -> bool {
+        let Some(hull) = SweptHull::new(from, to) else { return false };
+        match &self.pieces {
+            // what is not among the pieces is farther off than the range
+            Some(pieces) if reach < self.range => {
+                let pieces = pieces.iter().map(|(extent, piece)| (extent, &self.scene.pieces[*piece as usize]));
+                hull.clears_of(pieces, reach, self.scene.size)
+            }
+            _ => hull.clears(self.scene, reach),
+        }
+    }
+
     /// As [`distance`](Self::distance), among all pieces of the scene.
     fn in_scene(&self, shape: &Placed, enough: f64, within: f64) -> Option<f64> {
-        let mut look = DistanceSearch::new(self.scene, shape, enough, within);
+        let mut room = LaneRoom::EMPTY;
+        let mut look = DistanceSearch::new(self.scene, shape, enough, within, &mut room);
         let from = look.extent();
         self.scene.index.nearest(&from, within, |piece| look.at(piece));
         look.found()
@@ -61,7 +78,8 @@ impl<'a> Vicinity<'a> {
 
     /// As [`distance`](Self::distance), among these pieces alone.
     fn among(&self, pieces: &[(Aabb, u32)], shape: &Placed, enough: f64, within: f64) -> Option<f64> {
-        let mut look = DistanceSearch::new(self.scene, shape, enough, within);
+        let mut room = LaneRoom::EMPTY;
+        let mut look = DistanceSearch::new(self.scene, shape, enough, within, &mut room);
         let from = look.extent();
         let mut squares = [f64::INFINITY; MAX_PIECES];
         let (mut first, mut nearest) = (0, f64::INFINITY);
@@ -104,6 +122,7 @@ impl<'a> Vicinity<'a> {
 /// A search for the distance alone, which stops once a distance of at most `enough` is found.
 struct DistanceSearch<'a> {
     search: NearestSearch<'a>,
+    room: &'a mut LaneRoom,
     within: f64,
     enough: f64,
     /// The distance found that is at most `enough`, metres.
@@ -111,8 +130,8 @@ struct DistanceSearch<'a> {
 }
 
 impl<'a> DistanceSearch<'a> {
-    fn new(scene: &'a Scene, shape: &'a Placed, enough: f64, within: f64) -> Self {
-        DistanceSearch { search: scene.search(shape, within), within, enough, near: None }
+    fn new(scene: &'a Scene, shape: &'a Placed, enough: f64, within: f64, room: &'a mut LaneRoom) -> Self {
+        DistanceSearch { search: scene.search(shape, within), room, within, enough, near: None }
     }
 
     fn extent(&self) -> Aabb {
@@ -125,7 +144,7 @@ impl<'a> DistanceSearch<'a> {
         if self.near.is_some() {
             return 0.0;
         }
-        let least = self.search.look_for_distance(piece);
+        let least = self.search.look_for_distance(piece, self.room);
         if least <= self.enough && least < self.within {
             self.near = Some(least);
             return 0.0;
@@ -149,7 +168,7 @@ mod tests {
     fn a_vicinity_answers_as_the_scene_does() {
         let scene = Scene::apartment();
         let mut draws = Stream::new(Seed(2), "vicinity");
-        let mut beyond = 0;
+        let (mut beyond, mut kept, mut missed) = (0, [0; 2], 0);
         for _ in 0..300 {
             let mut at = |reach: f64| Point2::new(draws.uniform(3.0, 3.0 + reach), draws.uniform(2.0, 2.0 + reach));
             let way = Aabb { min: Point2::new(3.0, 2.0), max: Point2::new(5.0, 4.0) };
@@ -165,15 +184,38 @@ mod tests {
                     assert!(near == expected || near.is_some_and(|n| n <= 0.2 && distance <= n), "{near:?} {distance}");
                 }
             }
+            // between two places; what lies beyond the range counts too
+            let to = Placed::new([at(2.0), at(2.0)], 0.05);
+            let swept = scene.distance_of_hull(hull.hull_with(&to));
+            for reach in [0.05, 0.2, 0.4, 0.8] {
+                let clears = vicinity.clears([&hull, &to], reach);
+                assert!(!clears || swept > reach, "{swept} is not farther than {reach}");
+                kept[usize::from(reach > 0.25)] += usize::from(clears);
+                missed += usize::from(!clears && swept > 1.1 * reach + 0.01);
+            }
             assert_eq!(vicinity.touches(&hull), distance == 0.0);
             assert_eq!(Vicinity::all(&scene).touches(&hull), distance == 0.0);
             beyond += usize::from(distance > 0.25);
         }
         assert!(beyond > 10 && beyond < 290, "{beyond} beyond the range");
+        assert!(kept[0] > 30 && kept[1] > 0 && missed < 10, "{kept:?} kept, {missed} missed");
         let wall = |k: u32| Segment::new(Point2::new(f64::from(k), 0.0), Point2::new(f64::from(k), 1.0));
         let walls: Vec<Segment> = (0..=MAX_PIECES as u32).map(wall).collect();
         let all = Aabb { min: Point2::origin(), max: Point2::new(99.0, 1.0) };
         assert!(Vicinity::new(&Scene::of_walls(&walls), &all, 1.0).pieces.is_none(), "too much to be worth it");
         assert!(Vicinity::new(&Scene::of_walls(&walls[1..]), &all, 1.0).pieces.is_some());
+    }
+
+    #[test]
+    fn what_lies_beyond_the_range_is_parted_in_the_scene() {
+        let wall = Scene::of_walls(&[Segment::new(Point2::new(5.5, 2.0), Point2::new(5.5, 4.0))]);
+        let way = Aabb { min: Point2::new(3.0, 2.0), max: Point2::new(5.0, 4.0) };
+        let vicinity = Vicinity::new(&wall, &way, 0.25);
+        assert!(vicinity.pieces.as_ref().is_some_and(|pieces| pieces.is_empty()));
+        let [near, far] = [5.0, 3.0].map(|x| Placed::new([Point2::new(x, 2.5), Point2::new(x, 3.5)], 0.0));
+        // the wall is half a metre off
+        let clears = [0.2, 0.4, 0.6].map(|reach| vicinity.clears([&far, &near], reach));
+        assert_eq!(clears, [true, true, false]);
+        assert!(!vicinity.clears([&far, &near], f64::NAN));
     }
 }

@@ -102,16 +102,34 @@ impl<'a> SweptHull<'a> {
     /// A conservative separation test: true only if all pieces of the scene are valid and farther off than `reach`
     /// metres. `false` is inconclusive.
     pub(crate) fn clears(&self, scene: &Scene, reach: f64) -> bool {
-        let range = self.radius + reach + self.rounding_bound(scene.size);
-        if !range.is_finite() {
-            return false; // `reach` is NaN, or a piece is not valid and counts as contact everywhere
-        }
+        let Some(range) = self.range(reach, scene.size) else { return false };
         let mut near = false;
         scene.index.each_near(&self.bounds, range, |piece| {
             near = !self.passes(&scene.pieces[piece], reach, scene.size);
             near
         });
         !near
+    }
+
+    /// As [`clears`](Self::clears), of these pieces alone, given with the boxes around them.
+    pub(crate) fn clears_of<'b>(
+        &self,
+        pieces: impl IntoIterator<Item = (&'b Aabb, &'b Placed)>,
+        reach: f64,
+        size: f64,
+    ) -> bool {
+        let Some(range) = self.range(reach, size) else { return false };
+        let is_far = |(extent, piece): (&Aabb, &Placed)| {
+            self.bounds.squared_distance(extent) > range * range || self.passes(piece, reach, size)
+        };
+        pieces.into_iter().all(is_far)
+    }
+
+    /// What is farther than this from the box around the two cores is farther than `reach` from the hull, metres.
+    /// `None` where `reach` is NaN, or a piece is not valid and counts as contact everywhere.
+    fn range(&self, reach: f64, size: f64) -> Option<f64> {
+        let range = self.radius + reach + self.rounding_bound(size);
+        range.is_finite().then_some(range)
     }
 
     /// A conservative separation test for one valid piece whose coordinates are at most `size`: true only if some line

@@ -3,6 +3,7 @@
 use super::convex::{
     NearestPoints, cores_contact, cores_distance, edges, point_segment, polygon_contains, segments_contact,
 };
+use super::core_lanes::Measured;
 use super::double_double::Dd;
 use super::separating_line::{SureParting, parted_distance};
 use crate::geometry::{Placed, Point2, Segment, largest_coordinate};
@@ -32,6 +33,11 @@ pub(crate) fn nearest_within(a: &Placed, b: &Placed, limit: f64) -> Option<Neare
 /// As [`nearest_within`], for shapes whose cores a line certainly separates.
 pub(crate) fn nearest_across(a: &Placed, b: &Placed, limit: f64, parting: &SureParting) -> Option<NearestPoints> {
     nearest_apart(a, b, parted_distance(a.core(), b.core(), core_limit(a, b, limit), parting)?)
+}
+
+/// As [`nearest_across`], for shapes whose cores were measured side by side.
+pub(crate) fn nearest_measured(a: &Placed, b: &Placed, limit: f64, cores: &Measured) -> Option<NearestPoints> {
+    nearest_apart(a, b, cores.nearest(core_limit(a, b, limit))?)
 }
 
 /// The limit for the cores' distance: the limit for the shapes' distance plus the radii, and more than rounding.

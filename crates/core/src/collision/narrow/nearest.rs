@@ -1,7 +1,8 @@
 //! `NearestSearch`, the nearest piece to a shape.
 
 use super::convex::{NearestPoints, plainly_overlap};
-use super::distance::nearest_across;
+use super::core_lanes::LaneRoom;
+use super::distance::{nearest_across, nearest_measured};
 use super::half_planes::Sides;
 use super::pair::pair_within;
 use super::separating_line::{Parting, SureParting};
@@ -17,6 +18,14 @@ pub(crate) struct NearestSearch<'a> {
     within: f64,
     best: Option<(usize, NearestPoints)>,
     sides: Option<Sides>,
+}
+
+/// What measuring side by side says of a piece.
+enum Across {
+    /// It is certainly farther than the nearest so far.
+    Farther,
+    /// Its distance, as [`take`](NearestSearch::take) takes it.
+    Measured(Option<NearestPoints>),
 }
 
 impl<'a> NearestSearch<'a> {
@@ -52,10 +61,15 @@ impl<'a> NearestSearch<'a> {
     }
 
     /// As [`look`](Self::look), for the hulls and footprints of an edge, which are near the pieces and have many
-    /// corners: it tries a separating line first. Returns 0 at once where piece and shape certainly overlap; then the
-    /// search finds no nearest piece.
-    pub(crate) fn look_for_distance(&mut self, piece: usize) -> f64 {
+    /// corners: it tries to part the two first, side by side. Returns 0 at once where piece and shape certainly
+    /// overlap; then the search finds no nearest piece.
+    pub(crate) fn look_for_distance(&mut self, piece: usize, room: &mut LaneRoom) -> f64 {
         let (other, least) = (&self.pieces[piece], self.least());
+        match self.across(other, least, room) {
+            Some(Across::Farther) => return least,
+            Some(Across::Measured(found)) => return self.take(piece, found),
+            None => {}
+        }
         let found = match self.parting(other) {
             Some(parting) => {
                 let gap = parting.line.gap - (self.shape.radius() + other.radius());
@@ -68,6 +82,33 @@ impl<'a> NearestSearch<'a> {
             None => pair_within(self.shape, other, least),
         };
         self.take(piece, found)
+    }
+
+    /// Measures a piece side by side, where a side of the shape certainly separates the two cores. `None` where none
+    /// does, or where a core has too many vertices.
+    #[inline]
+    fn across(&self, other: &Placed, least: f64, room: &mut LaneRoom) -> Option<Across> {
+        let core = self.shape.core();
+        if !room.is_set() && !room.set(self.shape) {
+            return None;
+        }
+        let reach = self.shape.radius() + other.radius();
+        let size = self.size + room.size() + reach;
+        let slack = 64.0 * f64::EPSILON * size;
+        let farther = |gap: f64| gap - reach > least * (1.0 + 1e-12) + slack;
+        let gap = room.gap(other.core());
+        if farther(gap) {
+            return Some(Across::Farther);
+        }
+        let is_apart = gap > 1e-12 * gap + slack;
+        if !is_apart {
+            return None;
+        }
+        let cores = room.measure(core, other.core(), size)?;
+        if farther(cores.distance - cores.slack) {
+            return Some(Across::Farther);
+        }
+        Some(Across::Measured(nearest_measured(self.shape, other, least, &cores)))
     }
 
     /// A line that certainly separates the cores of the shape and of a piece. `None` where there is none, or where
