@@ -178,19 +178,19 @@ pub fn rows(table: &mut Table) {
     for (count, side, longest) in [(40, 8.0, 2.0), (10_000, 100.0, 1.0)] {
         let names = names("disc", "exact", count, "segments");
         if names.iter().any(|name| table.wants(name)) {
-            disc(&walls(count, side, longest), side).rows(table, ["disc_free", "disc_hit"], names, [4.0, 2.0], 0);
+            disc(&walls(count, side, longest), side).rows(table, ["disc_free", "disc_hit"], names, [1.7, 2.0], 0);
         }
     }
-    for (count, scene) in arm_scenes() {
+    for ((count, scene), marks) in arm_scenes().into_iter().zip([[18.0, 3.5], [30.0, 8.0], [18.0, 6.0]]) {
         let names = names("arm", "certified", count, "obstacles");
         if names.iter().any(|name| table.wants(name)) {
-            arm(scene).rows(table, ["arm_free", "arm_hit"], names, [40.0, 15.0], 8);
+            arm(scene).rows(table, ["arm_free", "arm_hit"], names, marks, 8);
         }
     }
-    for count in [3, 100, 10_000] {
+    for (count, marks) in [(3, [40.0, 7.0]), (100, [40.0, 10.0]), (10_000, [30.0, 8.0])] {
         let names = names("car", "certified", count, "obstacles");
         if names.iter().any(|name| table.wants(name)) {
-            car(boxes(count, 0.0)).rows(table, ["car_free", "car_hit"], names, [40.0, 15.0], 8);
+            car(boxes(count, 0.0)).rows(table, ["car_free", "car_hit"], names, marks, 8);
         }
     }
 }

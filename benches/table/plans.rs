@@ -103,6 +103,6 @@ pub fn rows(table: &mut Table) {
     let work = "plans: RRT-Connect, Reach round the post, start to certified path, median of 1,000 seeds";
     if table.wants(work) {
         let [plan, edge] = plan_and_edge(if is_timed() { SEEDS } else { 3 });
-        table.push(Row::new(work.into(), Mark::at_most(250.0, " edges"), &plan, &[edge]));
+        table.push(Row::new(work.into(), Mark::cost(" edges"), &plan, &[edge]));
     }
 }

@@ -87,7 +87,7 @@ fn batch(table: &mut Table) {
 }
 
 pub fn rows(table: &mut Table) {
-    for ((count, scene), mark) in arm_scenes().into_iter().zip([3.0, 3.0, 2.5]) {
+    for ((count, scene), mark) in arm_scenes().into_iter().zip([3.0, 3.0, 4.0]) {
         let work = format!("arm, distance and witness, {count} obstacles");
         let footprints = free_arms(&scene);
         table.race(&[(work, Mark::faster_by(mark))], |peers| {

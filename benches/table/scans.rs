@@ -14,8 +14,8 @@ pub fn rows(table: &mut Table) {
     sets.extend(Instructions::available().into_iter().filter(|set| *set != best));
     for case in WORLDS {
         let mark = |set| match case.must {
-            Some(must) if set == best => Mark::faster_by(must),
-            Some(_) => Mark::faster_by(15.0),
+            Some([must, _]) if set == best => Mark::faster_by(must),
+            Some([_, must]) => Mark::faster_by(must),
             None => Mark::FASTER,
         };
         let works: Vec<_> = sets.iter().map(|set| (format!("{} ({set:?})", case.work()), mark(*set))).collect();
