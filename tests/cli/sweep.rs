@@ -90,9 +90,9 @@ fn any_number_of_jobs_and_any_sharding_gives_the_same_bytes() {
     let table = String::from_utf8(whole.0).unwrap();
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 61);
-    let head = "row,seed,ticks,Rusty.start.x_m,Rusty.noise.sigma_hit_m,failure,contacts,first_contact_s,";
+    let head = "row,seed,ticks,Rusty.start.x_m,Rusty.noise.sigma_hit_m,failure,failure_kind,contacts,";
     assert!(lines[0].starts_with(head), "{}", lines[0]);
-    assert!(lines[1].starts_with("0,0,20,3,0,,0,,") && lines[60].starts_with("59,9,20,20000,0.02,\"Rusty.start.x: "));
+    assert!(lines[1].starts_with("0,0,20,3,0,,,0,,") && lines[60].starts_with("59,9,20,20000,0.02,\"Rusty.start.x: "));
     assert_eq!(lines.iter().filter(|line| line.contains("Rusty.start.x: ")).count(), 20);
     assert_eq!(lines.iter().filter(|line| line.contains("the goal was not reached")).count(), 20);
 }
@@ -168,7 +168,8 @@ fn a_report_shows_distributions_worst_runs_and_failures() {
     assert!(failures.contains("reproduce 'all.parquet' --row 2 &amp;&amp; motion-lab open 2.mcap"));
     assert!(failures.contains("<td>4</td>") && failures.contains("there was no run"));
     let worst = &page[page.find("Worst runs").unwrap()..page.find("Failures, the first").unwrap()];
-    let clearance = |line: &str| line.split("<td>").nth(9).and_then(|cell| cell.split('<').next()?.parse::<f64>().ok());
+    let clearance =
+        |line: &str| line.split("<td>").nth(10).and_then(|cell| cell.split('<').next()?.parse::<f64>().ok());
     let listed: Vec<f64> = worst.lines().filter(|line| line.starts_with("<tr><td>")).filter_map(clearance).collect();
     let table = fs::read_to_string(at.join("all.csv")).unwrap();
     let column = table.lines().next().unwrap().split(',').position(|name| name == "least_clearance_m").unwrap();
@@ -210,7 +211,7 @@ fn a_merge_proves_that_every_row_is_there_once_and_of_one_plan() {
     let part = at.join("parts/part-1-of-4.sweep");
     let text = fs::read_to_string(&part).unwrap();
     let (rows, _) = text.rsplit_once("seal ").unwrap();
-    let forged = rows.replacen("\n7,1,20,3,0.02,,0,", "\n7,1,20,3,0.02,,9,", 1);
+    let forged = rows.replacen("\n7,1,20,3,0.02,,,0,", "\n7,1,20,3,0.02,,,9,", 1);
     assert_ne!(forged, rows);
     let seal = xxhash_rust::xxh3::xxh3_128(forged.as_bytes());
     fs::write(&part, format!("{forged}seal {seal:032x}\n")).unwrap();

@@ -1,10 +1,15 @@
 //! `TableFile`, a sweep's table that is read, and `VerifiedTable`, what is known of any that was proven.
 
+use std::io::{self, Read};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use parquet::errors::ParquetError;
+use parquet::file::metadata::ParquetMetaDataReader;
 use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::record::{Field, Row};
 
 use super::error::TableError;
-use super::seal::{COLUMNS, PLAN, SEAL, TableSeal};
+use super::seal::{COLUMNS, HashedBytes, PAGES, PLAN, SEAL, TableSeal};
 use crate::batch::columns::{CellKind, Column};
 use crate::batch::row::{RowValue, RunRow};
 use crate::batch::study::Study;
@@ -19,6 +24,12 @@ struct SealedRows<R: ChunkReader + 'static> {
     sealed: Digest,
 }
 
+/// What reading a table gives. The crate that reads Parquet panics where metadata that was changed sends it to bytes
+/// that are no page.
+fn whole<T>(read: impl FnOnce() -> T) -> Result<T, TableError> {
+    catch_unwind(AssertUnwindSafe(read)).map_err(|_| TableError::Seal)
+}
+
 /// The cell of a field; `None` for a field that no writer of ours makes of its column.
 fn cell(field: Field, kind: CellKind) -> Option<RowValue> {
     match (field, kind) {
@@ -31,9 +42,15 @@ fn cell(field: Field, kind: CellKind) -> Option<RowValue> {
 }
 
 impl<R: ChunkReader + 'static> SealedRows<R> {
+    /// Opens a table whose pages are those that were written: what was changed in them is found before anything of it
+    /// is decoded.
     fn open(input: R) -> Result<Self, TableError> {
-        let reader = SerializedFileReader::new(input)?;
-        let metadata = reader.metadata().file_metadata().key_value_metadata();
+        whole(|| Self::open_whole(input))?
+    }
+
+    fn open_whole(input: R) -> Result<Self, TableError> {
+        let metadata = ParquetMetaDataReader::new().parse_and_finish(&input)?;
+        let metadata = metadata.file_metadata().key_value_metadata();
         let entry = |key: &str| {
             let entry = metadata.and_then(|entries| entries.iter().find(|entry| entry.key == key));
             entry.and_then(|entry| entry.value.as_deref())
@@ -44,13 +61,23 @@ impl<R: ChunkReader + 'static> SealedRows<R> {
         let seal = TableSeal::new([(COLUMNS, described)].into_iter().chain(plan.map(|plan| (PLAN, plan))));
         let columns = serde_json::from_str(described).map_err(|_| TableError::Seal)?;
         let plan = plan.map(str::to_owned);
+        let pages = entry(PAGES).ok_or(TableError::NoSeal)?;
+        let count = pages.split(' ').nth(1).and_then(|count| count.parse().ok()).ok_or(TableError::Seal)?;
+        let mut hashed = HashedBytes::new(io::sink());
+        io::copy(&mut input.get_read(0)?.take(count), &mut hashed)
+            .map_err(|error| ParquetError::External(error.into()))?;
+        if hashed.said() != pages {
+            return Err(TableError::Seal);
+        }
+        let reader = SerializedFileReader::new(input)?;
         Ok(SealedRows { reader, columns, plan, seal, sealed })
     }
 
     /// Calls `see` with the cells of every row, in order, then proves the seal. Returns the number of rows.
     fn each(mut self, mut see: impl FnMut(u64, Vec<RowValue>) -> Result<(), TableError>) -> Result<u64, TableError> {
         let mut number = 0;
-        for row in self.reader.get_row_iter(None)? {
+        let mut rows = whole(|| self.reader.get_row_iter(None))??;
+        while let Some(row) = whole(|| rows.next())? {
             let cells = Self::cells(row?, &self.columns).ok_or(TableError::Row(number))?;
             self.seal.add(&cells);
             see(number, cells)?;

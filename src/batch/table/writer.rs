@@ -12,7 +12,7 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
 use super::error::TableError;
-use super::seal::{COLUMNS, PLAN, SEAL, TableSeal};
+use super::seal::{COLUMNS, HashedBytes, PAGES, PLAN, SEAL, TableSeal};
 use crate::batch::columns::{CellKind, Column};
 use crate::batch::row::{RowValue, RunRow};
 use crate::batch::study::Study;
@@ -22,7 +22,7 @@ const GROUP: usize = 65_536;
 
 /// Writes a sweep's rows as Parquet, and a digest of all it says into the file's metadata.
 pub struct TableWriter<W: Write + Send> {
-    writer: SerializedFileWriter<W>,
+    writer: SerializedFileWriter<HashedBytes<W>>,
     kinds: Vec<CellKind>,
     rows: Vec<Vec<RowValue>>,
     seal: TableSeal,
@@ -62,7 +62,8 @@ impl<W: Write + Send> TableWriter<W> {
         let seal = TableSeal::new(entries.clone());
         let metadata = entries.map(|(key, value)| KeyValue::new(key.to_owned(), value.to_owned())).collect();
         let properties = WriterProperties::builder().set_key_value_metadata(Some(metadata)).build();
-        let writer = SerializedFileWriter::new(output, Arc::new(schema(columns)?), Arc::new(properties))?;
+        let writer =
+            SerializedFileWriter::new(HashedBytes::new(output), Arc::new(schema(columns)?), Arc::new(properties))?;
         let kinds = columns.iter().map(|column| column.kind).collect();
         Ok(TableWriter { writer, kinds, rows: Vec::new(), seal })
     }
@@ -103,8 +104,12 @@ impl<W: Write + Send> TableWriter<W> {
             self.group()?;
         }
         let seal = self.seal.digest().to_string();
-        self.writer.append_key_value_metadata(KeyValue::new(SEAL.to_owned(), seal));
-        Ok(self.writer.into_inner()?)
+        self.writer.flush().map_err(|error| ParquetError::External(error.into()))?;
+        let pages = self.writer.inner().said();
+        for (key, value) in [(SEAL, seal), (PAGES, pages)] {
+            self.writer.append_key_value_metadata(KeyValue::new(key.to_owned(), value));
+        }
+        Ok(self.writer.into_inner()?.bytes)
     }
 }
 

@@ -111,7 +111,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     } else {
         let side = if narrow { 12 } else { 20 };
         if !narrow {
-            frame::sentence(ui, state.widget.text(), side, true, &look, state);
+            frame::sentence(ui, model, side, &look, state);
         }
         let margins = Frame::NONE.inner_margin(Margin::symmetric(side, if low { 6 } else { 14 }));
         let panel = CentralPanel::default().frame(margins).show(ui, |ui| match state.widget {

@@ -1,8 +1,9 @@
 //! Begins lessons, and makes their widgets ready.
 
-use super::atlas::{FIRST_CELL, Mode};
+use super::atlas::FIRST_CELL;
 use super::dashboard::hand::drive;
 use super::dashboard::twins;
+use super::paint::frame::{kind_of, mode_of};
 use super::{AnatomyState, AtlasState, Command, CspaceState, Dashboard, LessonState, UiState};
 use motion_lab_core::configuration::RobotKind;
 use motion_lab_sim::manifest::{HintTask, Lesson, Widget};
@@ -90,23 +91,4 @@ pub fn learnt(lesson: Lesson, model: &Dashboard, state: &UiState) -> String {
         _ => None,
     };
     own.unwrap_or_else(|| lesson.learnt().to_owned())
-}
-
-/// The kind of the robot that a lesson of the dashboard is about.
-fn kind_of(task: HintTask) -> Option<&'static str> {
-    match task {
-        HintTask::TwoElbows | HintTask::MoveArm => Some(RobotKind::REACH.name),
-        HintTask::TwoHeadings => Some(RobotKind::HITCH.name),
-        HintTask::Drive | HintTask::DriveOn | HintTask::Held => Some(RobotKind::RUSTY.name),
-        _ => None,
-    }
-}
-
-/// What a click does in the atlas of a lesson.
-fn mode_of(task: HintTask) -> Mode {
-    match task {
-        HintTask::Coarsen => Mode::Measure,
-        HintTask::PickWall | HintTask::EditWorld => Mode::Edit,
-        _ => Mode::Put,
-    }
 }

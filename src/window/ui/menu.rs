@@ -68,7 +68,7 @@ pub fn header(
             ui.set_max_width((ui.available_width() - room).max(0.0));
             if !look.narrow {
                 frame::name_and_key(ui, words, look, state);
-            } else if is_upright(look) || !is_true_of(model, state) {
+            } else if is_upright(look) || !frame::is_true_of(model, state) {
                 frame::name(ui, words, look);
             } else {
                 frame::title(ui, words, look);
@@ -92,12 +92,6 @@ pub fn menu_button(
     commands: &mut Vec<Command>,
 ) {
     fold::menu(ui, "Menu", |ui| menu(ui, model, &[], look, state, commands));
-}
-
-/// Whether what the widget in front says of the misconception that it removes is true of what it shows: what is said of
-/// three robots is true of three worlds.
-pub fn is_true_of(model: &Dashboard, state: &UiState) -> bool {
-    state.widget != Widget::Dashboard || model.cockpits.len() == 3
 }
 
 /// Whether words stand under the picture, one screen below the other.

@@ -60,7 +60,7 @@ pub enum Guess {
 
 /// Why a text is no guess.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is no number; write it as 0.05")]
+#[error("{}", if .0.trim().is_empty() { "write a number, such as 0.05".to_owned() } else { format!("{:?} is no number; write it as 0.05", .0) })]
 pub struct NoGuess(pub String);
 
 impl Prompt {

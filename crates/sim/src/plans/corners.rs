@@ -86,6 +86,7 @@ mod tests {
     use super::*;
     use crate::plans::PathLengths;
     use motion_lab_core::configuration::Tn;
+    use motion_lab_core::num::hypot;
     use motion_lab_core::planning::Bounds;
 
     fn arm(q: [f64; 2]) -> AnyConfiguration {
@@ -103,13 +104,16 @@ mod tests {
     #[test]
     fn named_corners_are_a_path_where_every_line_is_proven() {
         let task = Task::round_the_post();
-        // the arm folds, turns round behind the post, and unfolds: by hand
-        let corners = [[2.0, 0.0], [2.0, -2.5], [3.1, -2.5], [3.1, 0.0]];
+        // away from the post, over an edge of the square, and on to the goal from the other side
+        let corners = [[2.0, 0.0], [0.0, 2.5], [-2.0, -1.5], [3.1, 0.0]];
         let direct = through(&task, &[[2.0, 0.0], [3.1, 0.0]]).unwrap_err();
         assert!(direct.to_string().contains("leg 0 hits "), "{direct}");
         let found = through(&task, &corners);
         let Ok(PathLengths { length, clearance }) = found else { panic!("{found:?}") };
-        assert!((length - (2.5 + 1.1 + 2.5)).abs() < 1e-12 && clearance > 0.0, "{length} {clearance}");
+        // by Pythagoras; the elbow goes from 2.5 to -1.5 by a turn less 4, and joint 1 from -2 to 3.1 by one less 5.1
+        let turn = std::f64::consts::TAU;
+        let by_hand = hypot(2.0, 2.5) + hypot(2.0, turn - 4.0) + hypot(turn - 5.1, 1.5);
+        assert!((length - by_hand).abs() < 1e-12 && clearance > 0.0, "{length} {clearance}");
         // what it does not keep is refused, and so is a path to somewhere else
         let wide = Task { clearance: Some(clearance + 0.2), ..task.clone() };
         assert!(through(&wide, &corners).is_err());

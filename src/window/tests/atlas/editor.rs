@@ -8,7 +8,7 @@ fn what_is_added_goes_where_the_paper_is_clicked_and_by_keys_into_the_middle() {
     click(&mut harness, "Atlas");
     click(&mut harness, "Edit");
     click(&mut harness, "Add disc");
-    harness.get_by_label("Click where the disc goes. Escape drops it.");
+    harness.get_by_label("Click where the disc goes, or drag. Escape drops it.");
     // it is shown under the pointer, and is not there yet
     let place = at(&harness, [2.02, 4.01]);
     pointer(&mut harness, place, None);
@@ -43,6 +43,43 @@ fn what_is_added_goes_where_the_paper_is_clicked_and_by_keys_into_the_middle() {
     assert_eq!((disc(&harness, "disc 2"), atlas(&harness).selected), (None, None));
     press(&mut harness, Modifiers::NONE, Key::Delete);
     assert!(disc(&harness, "disc").is_some(), "nothing is selected");
+}
+
+#[test]
+fn what_is_added_is_drawn_by_a_drag_with_its_size_at_the_pointer() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Atlas");
+    click(&mut harness, "Edit");
+    let draw = |harness: &mut Harness<'_, Lab>, add: &str, [from, to]: [[f64; 2]; 2], is_dropped: bool| {
+        click(harness, add);
+        let [from, to] = [from, to].map(|p| at(harness, p));
+        pointer(harness, from, Some(true));
+        (1..=4).for_each(|i| pointer(harness, from.lerp(to, i as f32 / 4.0), None));
+        let size = crate::window::tests::safe::words(harness).into_iter().find(|(text, ..)| text.contains(" m"));
+        if is_dropped {
+            press(harness, Modifiers::NONE, Key::Escape);
+        }
+        pointer(harness, to, Some(false));
+        harness.run_steps(2);
+        size.map(|(text, ..)| text)
+    };
+    let ends = |h: &Harness<'_, Lab>, name: &str| {
+        let thing = atlas(h).world().obstacle(name).map(|o| o.placed().next().unwrap().core().to_vec());
+        thing.map(|ends| ends.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>())
+    };
+    // from 1 m, 4 m by 3 m and 4 m: 5 m long; off the grid of 5 cm by a centimetre
+    let size = draw(&mut harness, "Add wall", [[6.01, 3.99], [9.0, 4.01]], false);
+    assert_eq!(size.as_deref(), Some("3.00 m, 0\u{b0}"));
+    assert_eq!(ends(&harness, "wall"), Some(vec![[6.0, 4.0], [9.0, 4.0]]));
+    assert_eq!(atlas(&harness).selected.as_deref(), Some("wall"));
+    // a second one begins at the end of the first, though the pointer is a little off it
+    draw(&mut harness, "Add wall", [[9.03, 4.03], [9.0, 4.5]], false);
+    assert_eq!(ends(&harness, "wall 2").unwrap()[0], [9.0, 4.0]);
+    draw(&mut harness, "Add wall", [[6.0, 4.5], [7.0, 4.5]], true);
+    assert_eq!(ends(&harness, "wall 3"), None, "Escape drops it");
+    // one step back takes one of them away
+    click(&mut harness, "Undo");
+    assert_eq!((ends(&harness, "wall 2"), ends(&harness, "wall").is_some()), (None, true));
 }
 
 #[test]

@@ -125,3 +125,34 @@ fn the_hints_of_each_widget_are_put_away_by_themselves() {
     click(&mut harness, "Atlas");
     assert!(are_away(&harness, Widget::Atlas));
 }
+
+#[test]
+fn the_sentence_asks_for_what_can_be_done_here_and_now() {
+    let mut harness = lab(WIDE);
+    interface_mut(&mut harness).settings = crate::window::ui::Settings::default();
+    click(&mut harness, "Atlas");
+    harness.run_steps(2);
+    // the sentence is as wide as its words, a dot is not
+    let is_said = |harness: &Harness<'_, Lab>, text: &str| harness.get_by_label(text).rect().width() > 100.0;
+    let (put, pick) = ("Click to put the robot there, and drag to turn it.", "Which wall is a list? Edit: click one,");
+    let pick = Widget::Atlas.text().hints.iter().find(|hint| hint.text.starts_with(pick)).map(|hint| &*hint.text);
+    let pick = pick.expect("a task of the editor");
+    assert!(is_said(&harness, put) && !is_said(&harness, pick));
+    click(&mut harness, "Edit");
+    harness.run_steps(2);
+    assert!(is_said(&harness, pick) && !is_said(&harness, put), "what a click does now");
+    click(&mut harness, "Got it");
+    harness.run_steps(2);
+    assert!(harness.query_by_label(pick).is_none());
+    click(&mut harness, "Tasks");
+    harness.run_steps(2);
+    assert!(is_said(&harness, pick), "they come back");
+    // a world without a robot has no task that needs one, and says so
+    click(&mut harness, "New");
+    click(&mut harness, "Run this world");
+    harness.run_steps(6);
+    let tasks: Vec<bool> =
+        Widget::Dashboard.text().hints.iter().map(|hint| harness.query_by_label(&hint.text).is_some()).collect();
+    assert_eq!(tasks, [false, false, false, false, false, false, true], "to begin it anew is possible");
+    harness.get_by_label("No robot lives here. Edit in the Atlas adds one.");
+}

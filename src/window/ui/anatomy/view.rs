@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    ComboBox, DragValue, Id, Label, Response, RichText, ScrollArea, Slider, TextEdit, Ui, WidgetInfo, WidgetType, vec2,
+    ComboBox, DragValue, Id, Label, Response, RichText, ScrollArea, Slider, TextEdit, TextStyle, Ui, WidgetInfo,
+    WidgetType, vec2,
 };
 
 use super::in_front::PutInRun;
@@ -114,7 +115,9 @@ fn asked(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
     let role = if anatomy.intersects() && anatomy.tab != Tab::Swept { Role::Goal } else { Role::Text };
     let (answer, details) = anatomy.answer();
     // each question's answers have their own room
-    steady(ui, anatomy.tab.name(), 0.0, |ui| {
+    let row = ui.spacing().item_spacing.y;
+    let least = ui.text_style_height(&TextStyle::Heading) + row + ui.text_style_height(&TextStyle::Monospace);
+    steady(ui, anatomy.tab.name(), least, |ui| {
         headline(ui, &answer, look.colour(role));
         for line in details {
             ui.label(RichText::new(true_minus(&line)).monospace().color(look.colour(role)));

@@ -5,7 +5,7 @@ use crate::window::ui::AtlasState;
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::geometry::{Aabb, Point2, Pose2, Vector2};
 use motion_lab_core::num::{atan2, greater, lesser};
-use motion_lab_core::picture::Item;
+use motion_lab_core::picture::{Anchor, Drawing, Face, Item, Role, true_minus};
 use motion_lab_core::worlds::{ObstacleKind, World};
 use motion_lab_sim::atlas::{Editor, Op, Template, snap};
 
@@ -67,8 +67,46 @@ impl AtlasState {
 
     /// Adds a thing there, snapped to the grid, and selects it.
     pub fn add(&mut self, template: Template, at: Point2) {
+        let unit = self.unit();
+        self.add_by(template, |name| template.op(name, snap(at, &[], 0.0, GRID), unit));
+    }
+
+    /// Adds a thing drawn from one point to another, both snapped to corners within `reach`, else to the grid, and
+    /// selects it. Where the two are one it is added there.
+    pub fn add_drawn(&mut self, template: Template, ends: [Point2; 2], reach: Option<f64>) {
+        let ends = self.drawn_ends(ends, reach);
+        if ends[0] == ends[1] {
+            return self.add(template, ends[0]);
+        }
+        self.add_by(template, |name| template.drawn(name, ends));
+    }
+
+    /// The ends of what is drawn, snapped; without a `reach` as they are.
+    fn drawn_ends(&self, ends: [Point2; 2], reach: Option<f64>) -> [Point2; 2] {
+        let Some(reach) = reach else { return ends };
+        let corners = self.corners("", None);
+        ends.map(|end| snap(end, &corners, reach, GRID))
+    }
+
+    /// What drawing the thing from one point to another would add, with its size beside the second.
+    pub fn drawn_items(&self, template: Template, ends: [Point2; 2], reach: Option<f64>) -> Vec<Item> {
+        let ends = self.drawn_ends(ends, reach);
+        let mut items = self.items_of(&template.drawn(template.name(), ends), &template.name());
+        let size = Drawing::Label {
+            at: ends[1],
+            text: true_minus(&template.measured(ends)),
+            anchor: Anchor::Above,
+            face: Face::Sans,
+            size_px: 12.0,
+            plate: true,
+        };
+        items.push(Item::new("size", "how large it is", Role::Text, size));
+        items
+    }
+
+    fn add_by(&mut self, template: Template, op: impl FnOnce(String) -> Op) {
         let name = self.editor.free_name(&template.name());
-        let op = template.op(name.clone(), snap(at, &[], 0.0, GRID), self.unit());
+        let op = op(name.clone());
         self.placing = None;
         self.enter();
         self.change(&op, Some(name.clone()));
@@ -78,9 +116,13 @@ impl AtlasState {
     /// What adding the thing there would add: its outline, and its handles.
     pub fn added_items(&self, template: Template, at: Point2) -> Vec<Item> {
         let name = template.name();
-        let op = template.op(name.clone(), snap(at, &[], 0.0, GRID), self.unit());
-        let alone = Editor::new(World::empty("new", self.world().bounds)).preview(&op);
-        alone.map_or_else(|_| Vec::new(), |world| Editor::new(world).selected_items(&name))
+        self.items_of(&template.op(name.clone(), snap(at, &[], 0.0, GRID), self.unit()), &name)
+    }
+
+    /// The outline and the handles of the thing of this name that an operation adds.
+    fn items_of(&self, op: &Op, name: &str) -> Vec<Item> {
+        let alone = Editor::new(World::empty("new", self.world().bounds)).preview(op);
+        alone.map_or_else(|_| Vec::new(), |world| Editor::new(world).selected_items(name))
     }
 
     /// The handle of the selected thing within `reach` metres of a point.

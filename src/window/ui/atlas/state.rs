@@ -88,6 +88,8 @@ pub struct AtlasState {
     pub(crate) drag: Option<Drag>,
     /// The thing that the next click on the paper adds.
     pub placing: Option<Template>,
+    /// Where the drag that draws it began.
+    pub drawn_from: Option<Point2>,
     /// What is looked for in the list of everything.
     pub search: String,
 }
@@ -170,6 +172,7 @@ impl AtlasState {
             tried: None,
             probe: None,
             placing: None,
+            drawn_from: None,
             search: String::new(),
             warnings: editor.warnings(),
             editor,

@@ -17,6 +17,7 @@ use crate::window::ui::paint::touch::worded;
 use crate::window::ui::{Command, Dashboard, FrameColours, SessionCommand, UiState};
 use motion_lab_core::picture::{Picture, ScreenPoint, Thing, pick, readout};
 use motion_lab_core::worlds::World;
+use motion_lab_sim::atlas::Template;
 use motion_lab_sim::manifest::{HintTask, Widget};
 
 /// Width of the panel beside the paper, points.
@@ -24,6 +25,9 @@ const SIDE: f32 = 300.0;
 
 /// Movement of the pointer on the screen beyond which a press is a drag, points.
 const DRAGGED: f64 = 8.0;
+
+/// Distance on the screen within which what is drawn or dragged snaps to a corner, points.
+const SNAP: f64 = 10.0;
 
 /// Shows the widget.
 pub fn atlas_view(
@@ -52,8 +56,16 @@ pub fn atlas_view(
     }
     moving.items.extend(state.atlas.probe_items(state.atlas.probe.or(at)));
     let placing = state.atlas.placing.filter(|_| state.atlas.mode == Mode::Edit);
+    // Alt leaves out the snapping
+    let reach = (!ui.input(|i| i.modifiers.alt)).then_some(SNAP / fit.px_per_metre());
+    if placing.is_none() {
+        state.atlas.drawn_from = None;
+    }
     if let Some((template, at)) = placing.zip(at) {
-        moving.items.extend(state.atlas.added_items(template, at));
+        moving.items.extend(match state.atlas.drawn_from {
+            Some(from) => state.atlas.drawn_items(template, [from, at], reach),
+            None => state.atlas.added_items(template, at),
+        });
     }
     let spoken = state.atlas.described();
     if ui.input(|i| i.pointer.any_pressed()) {
@@ -73,7 +85,7 @@ pub fn atlas_view(
         let place =
             PlateAnchor { at: paper.center_top() + vec2(0.0, 8.0), pivot: Align2::CENTER_TOP, width: paper.width() };
         plate(ui.ctx(), "placing", place, false, look, |ui| {
-            ui.label(worded(ui, &format!("Click where the {} goes. Escape drops it.", template.title())))
+            ui.label(worded(ui, &format!("Click where the {} goes, or drag. Escape drops it.", template.title())))
         });
     }
     // where the robot is drawn low, the words stand above it
@@ -96,11 +108,7 @@ pub fn atlas_view(
             }
         }
         Mode::Edit => match placing {
-            Some(template) => {
-                if let Some(at) = on.held().filter(|_| on.response.clicked()) {
-                    state.atlas.add(template, at);
-                }
-            }
+            Some(template) => draw(&on, template, reach, &mut state.atlas),
             None => edit(&on, &moving, &still, &mut state.atlas),
         },
         Mode::Measure => {}
@@ -170,6 +178,22 @@ fn put(on: &ScreenSheet, atlas: &mut AtlasState) -> bool {
     done && atlas.refusal().is_none()
 }
 
+/// Handles the pointer while a thing is to be added: a click adds it there, a drag draws it.
+fn draw(on: &ScreenSheet, template: Template, reach: Option<f64>, atlas: &mut AtlasState) {
+    let Some(at) = on.held() else { return };
+    if on.response.clicked() {
+        atlas.add(template, at);
+    } else if on.response.drag_started() {
+        let pressed = on.response.ctx.input(|i| i.pointer.press_origin());
+        let from = pressed.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)]));
+        atlas.drawn_from = Some(from.unwrap_or(at));
+    } else if on.response.drag_stopped()
+        && let Some(from) = atlas.drawn_from.take()
+    {
+        atlas.add_drawn(template, [from, at], reach);
+    }
+}
+
 /// Handles the pointer in edit mode: a press selects the thing there, a drag moves it or one of its handles.
 fn edit(on: &ScreenSheet, moving: &Picture, still: &Picture, atlas: &mut AtlasState) {
     let Some(at) = on.held_anywhere() else {
@@ -196,7 +220,7 @@ fn edit(on: &ScreenSheet, moving: &Picture, still: &Picture, atlas: &mut AtlasSt
     // off the paper a thing stays where it was last
     if on.response.dragged() && on.held().is_some() {
         let snaps = !on.response.ctx.input(|i| i.modifiers.alt);
-        atlas.drag_to(at, snaps.then_some(10.0 / on.fit.px_per_metre()));
+        atlas.drag_to(at, snaps.then_some(SNAP / on.fit.px_per_metre()));
     }
     if on.response.drag_stopped() || on.response.clicked() {
         atlas.end_drag();

@@ -14,6 +14,10 @@ use motion_lab_sim::simulation::{TransportCommand, WorldCommand};
 const REACH: f64 = 7.0;
 const TOUCH: f64 = 18.0;
 
+/// About the widths of the word before the doors' letters and of a letter's button, points.
+const WORD: f32 = 44.0;
+const LETTER: f32 = 22.0;
+
 /// Width of a door's button under a finger, points.
 const FINGER: f32 = 36.0;
 
@@ -102,10 +106,15 @@ pub fn row(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
 /// change, what comes.
 pub fn buttons(ui: &mut Ui, cockpit: &Cockpit, commands: &mut Vec<Command>) {
     let world = cockpit.atlas.world();
+    let width = if touched(ui) { FINGER } else { 0.0 };
     if !world.doors.is_empty() {
+        // few of them stay in one row
+        let room = WORD + world.doors.len() as f32 * (width.max(LETTER) + ui.spacing().item_spacing.x);
+        if room <= ui.max_rect().width() && ui.available_size_before_wrap().x < room {
+            ui.end_row();
+        }
         ui.label("doors");
     }
-    let width = if touched(ui) { FINGER } else { 0.0 };
     // in a row of words they stand on its line
     ui.spacing_mut().button_padding = vec2(6.0, 0.0);
     for door in &world.doors {

@@ -59,7 +59,7 @@ pub fn dashboard(
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
     if has_head {
-        frame::sentence(ui, Widget::Dashboard.text(), side, menu::is_true_of(model, state), look, state);
+        frame::sentence(ui, model, side, look, state);
     }
     let margin = Margin { top: if has_head { UNDER_HEAD } else { above }, ..Margin::symmetric(side, above) };
     let panel = CentralPanel::default().frame(Frame::NONE.inner_margin(margin)).show(ui, |ui| {

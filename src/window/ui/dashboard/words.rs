@@ -133,6 +133,9 @@ fn formulas(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours, state: &mut 
 }
 
 fn words(ui: &mut Ui, cockpit: &Cockpit, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
+    if cockpit.robots.is_empty() && cockpit.crowd.is_none() {
+        ui.label("No robot lives here. Edit in the Atlas adds one.");
+    }
     if let [robot] = &cockpit.robots[..] {
         twins::offer(ui, cockpit, robot, look, state);
         // where the words scroll, what can be done comes first
@@ -197,8 +200,6 @@ fn values(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours, state: &mut Ui
     readouts(ui, robot, look);
     counts(ui, robot, look);
     if robot.is_arm {
-        let words = "An arm is not held by what it touches: its contacts are counted.";
-        ui.add(Label::new(RichText::new(words).color(look.colour(Role::Muted))).wrap());
         handles::numbers(ui, robot, look, state, commands);
     }
 }
@@ -238,7 +239,8 @@ fn counts(ui: &mut Ui, robot: &CockpitRobot, look: &FrameColours) {
         text += &format!("  reversals: {}", robot.reversals);
     }
     let held = "Since the start. A robot on wheels is held a tenth of a millimetre off what it drives against.";
-    let counted = if robot.is_arm { "Since the start." } else { held };
+    let of_arm = "Since the start. An arm is not held by what it touches: its contacts are counted.";
+    let counted = if robot.is_arm { of_arm } else { held };
     ui.label(muted(text)).on_hover_text(counted);
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{ComboBox, DragValue, RichText, Slider, Ui, WidgetInfo};
+use bevy_egui::egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo};
 
 use super::blockers::what_to_move;
 use super::state::{PlanStage, PlanState};
@@ -220,8 +220,10 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
     let effort = plan.effort();
     let monospace = |text: String| RichText::new(text).monospace();
     if !matches!(plan.stage(), PlanStage::Read(..)) {
-        ui.label(monospace(format!("{:>6} iterations  {:>6} samples", effort.iterations, effort.samples)));
-        ui.label(monospace(format!("{:>6} edges asked {:>6} free", effort.edges, effort.free)));
+        // numbers stay with their words, however narrow the column
+        let mut row = |words: String| ui.add(Label::new(monospace(words)).extend());
+        row(format!("{:>5} iterations {:>5} samples", effort.iterations, effort.samples));
+        row(format!("{:>5} edges asked {:>5} free", effort.edges, effort.free));
     }
     match plan.stage() {
         PlanStage::Growing if effort.iterations == 0 => {}

@@ -3,6 +3,7 @@
 use super::{EditShape, Op};
 use motion_lab_core::configuration::{ArmSizes, RobotKind, Sizes, Space};
 use motion_lab_core::geometry::{Point2, Pose2, Vector2};
+use motion_lab_core::num::{atan2, greater, hypot, lesser};
 use motion_lab_core::worlds::Resident;
 
 /// A thing that can be added to a world.
@@ -86,6 +87,50 @@ impl Template {
         };
         Op::Add { name, shape }
     }
+
+    /// Adds one of this name drawn from one point to another: what has two ends between them, a box with them as its
+    /// opposite corners, a triangle with one side along the box's, a disc about the first and through the second. A
+    /// place and a robot on wheels stand at the first and face the second; an arm has its base at the first.
+    pub fn drawn(&self, name: String, [from, to]: [Point2; 2]) -> Op {
+        let way = to - from;
+        let theta = atan2(way.y, way.x);
+        let shape = match self {
+            Template::Wall => EditShape::Wall(vec![from, to]),
+            Template::Mark => EditShape::Mark(vec![from, to]),
+            Template::Box => {
+                let (min, max) =
+                    ([lesser(from.x, to.x), lesser(from.y, to.y)], [greater(from.x, to.x), greater(from.y, to.y)]);
+                EditShape::Box { min: min.into(), max: max.into() }
+            }
+            Template::Disc => EditShape::Disc { centre: from, radius: hypot(way.x, way.y) },
+            Template::Polygon => {
+                let top = Point2::new(0.5 * (from.x + to.x), to.y);
+                EditShape::Polygon(vec![from, Point2::new(to.x, from.y), top])
+            }
+            Template::Door => return Op::AddDoor { name, ends: [from, to] },
+            Template::Place => return Op::AddPlace { name, pose: Pose2 { x: from.x, y: from.y, theta } },
+            Template::Robot(kind, space) => {
+                let mut robot = resident(kind, space, &name, from);
+                if robot.sizes.is_none() {
+                    robot.start.iter_mut().skip(2).for_each(|heading| *heading = theta);
+                }
+                return Op::AddRobot(robot);
+            }
+        };
+        Op::Add { name, shape }
+    }
+
+    /// How large one is that is drawn from one point to another: its length and direction, its sides or its radius.
+    pub fn measured(&self, [from, to]: [Point2; 2]) -> String {
+        let way = to - from;
+        let (length, degrees) = (hypot(way.x, way.y), atan2(way.y, way.x).to_degrees().round());
+        match self {
+            Template::Wall | Template::Mark | Template::Door => format!("{length:.2} m, {degrees}\u{b0}"),
+            Template::Box | Template::Polygon => format!("{:.2} m \u{d7} {:.2} m", way.x.abs(), way.y.abs()),
+            Template::Disc => format!("radius {length:.2} m"),
+            Template::Place | Template::Robot(..) => format!("{degrees}\u{b0}"),
+        }
+    }
 }
 
 /// A robot of this kind whose angles are all 0.
@@ -106,6 +151,48 @@ mod tests {
     use motion_lab_core::geometry::Aabb;
     use motion_lab_core::robots::AnyRobot;
     use motion_lab_core::worlds::World;
+
+    #[test]
+    fn what_is_drawn_goes_from_one_point_to_the_other() {
+        let ends = [Point2::new(3.0, 2.0), Point2::new(6.0, 6.0)];
+        let empty = World::empty("Yard", Aabb::new(Point2::origin(), Point2::new(12.0, 8.0)));
+        let mut editor = Editor::new(empty);
+        for template in Template::THINGS.into_iter().chain(Template::robots()) {
+            let name = editor.free_name(&template.name());
+            editor.apply(&template.drawn(name.clone(), ends)).unwrap();
+            let numbers = editor.numbers(&name);
+            let of = |wanted: &str| numbers.iter().find(|n| n.name == wanted).map(|n| n.value);
+            // by hand: 3 and 4 are the sides of a right triangle with 5, whose angle is 0.9273
+            let known: &[(&str, f64)] = match template {
+                Template::Wall | Template::Mark => &[("x 1", 3.0), ("y 1", 2.0), ("x 2", 6.0), ("y 2", 6.0)],
+                Template::Box => &[("x", 3.0), ("y", 2.0), ("width", 3.0), ("height", 4.0)],
+                Template::Disc => &[("x", 3.0), ("y", 2.0), ("radius", 5.0)],
+                Template::Polygon => &[("x 2", 6.0), ("y 2", 2.0), ("x 3", 4.5), ("y 3", 6.0)],
+                Template::Door => &[("x of the hinge", 3.0), ("y of the hinge", 2.0)],
+                Template::Place => &[("x", 3.0), ("heading", 0.9273)],
+                Template::Robot(..) => &[],
+            };
+            for (number, value) in known {
+                let is = of(number).unwrap_or_else(|| panic!("{template:?}: {number} of {numbers:?}"));
+                assert!((is - value).abs() < 1e-4, "{template:?}: {number} {is}");
+            }
+        }
+        for robot in &editor.world().robots {
+            let (model, q) = AnyRobot::of_resident(robot).unwrap();
+            match model.annulus() {
+                Some((base, _)) => assert_eq!(base, ends[0]),
+                None => assert!(robot.start[2..].iter().all(|theta| (theta - 0.9273).abs() < 1e-4), "{q}"),
+            }
+        }
+        let door = &editor.world().doors[0];
+        assert_eq!([door.a, door.b], ends);
+        // the other way round a box is the same
+        let back = [ends[1], ends[0]];
+        assert_eq!(Template::Box.drawn("box".into(), back), Template::Box.drawn("box".into(), ends));
+        assert_eq!(Template::Wall.measured(ends), "5.00 m, 53\u{b0}");
+        assert_eq!(Template::Box.measured(back), "3.00 m \u{d7} 4.00 m");
+        assert_eq!(Template::Disc.measured(ends), "radius 5.00 m");
+    }
 
     #[test]
     fn everything_is_added_where_it_is_asked_for() {

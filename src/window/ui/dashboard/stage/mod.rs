@@ -145,19 +145,11 @@ impl Stage<'_> {
         commands: &mut Vec<Command>,
     ) -> f32 {
         let gap = 0.6 * GAP;
-        let width = (room.width() - gap * (cockpits.len() as f32 - 1.0)) / cockpits.len() as f32;
-        let place = |k: usize| pos2(room.left() + k as f32 * (width + gap), room.top());
-        let papers: Vec<Rect> = (0..)
-            .zip(cockpits)
-            .map(|(k, (_, cockpit))| {
-                let most = vec2(width, SMALL.min(SHARE_OF_SMALL * room.height()));
-                canvas::proportioned(&cockpit.world, Rect::from_min_size(place(k), most))
-            })
-            .collect();
+        let papers = equally_high(cockpits, room, gap);
         let line = ui.text_style_height(&TextStyle::Small);
         let bottom = papers.iter().fold(room.top(), |low, paper| low.max(paper.bottom())) + 4.0 + line;
-        for ((k, (index, cockpit)), paper) in (0..).zip(cockpits).zip(papers) {
-            let whole = Rect::from_min_max(place(k), pos2(place(k).x + width, bottom));
+        for ((index, cockpit), paper) in cockpits.iter().zip(papers) {
+            let whole = paper.with_max_y(bottom);
             if self.small(ui, cockpit, SmallCockpit { index: *index, whole, paper }, state) {
                 drive::let_go(state, commands);
                 state.focus.next_grasp = Some(Grasp::Leave);
@@ -312,6 +304,25 @@ impl Stage<'_> {
             None => pane::pane(ui, cockpit, rect, self.look, state, commands),
         }
     }
+}
+
+/// The papers of small cockpits in a row at the top of a room: equally high, as wide as their worlds are, and together
+/// no wider than the room.
+fn equally_high(cockpits: &[(usize, &Cockpit)], room: Rect, gap: f32) -> Vec<Rect> {
+    let high = SMALL.min(SHARE_OF_SMALL * room.height());
+    let width = |cockpit: &Cockpit, height: f32| {
+        canvas::proportioned(&cockpit.world, Rect::from_min_size(room.min, vec2(f32::MAX, height))).width()
+    };
+    let whole: f32 = cockpits.iter().map(|(_, cockpit)| width(cockpit, high)).sum();
+    let free = (room.width() - gap * (cockpits.len() as f32 - 1.0)).max(1.0);
+    let height = high * (free / whole).min(1.0);
+    let mut left = room.left();
+    let place = |(_, cockpit): &(usize, &Cockpit)| {
+        let paper = Rect::from_min_size(pos2(left, room.top()), vec2(width(cockpit, height), height));
+        left = paper.right() + gap;
+        paper
+    };
+    cockpits.iter().map(place).collect()
 }
 
 /// The cockpit in front, and its index: where panes lie side by side the one with the robot in hand, else the one

@@ -7,28 +7,16 @@ use bevy_egui::egui::{
 };
 
 use super::super::touch::worded;
+use super::tasks::{is_shown_here, suits};
 use super::title::{misconception, rows_of_words};
 use crate::window::ui::paint::style::ScreenTheme;
 use crate::window::ui::{FrameColours, LessonState, UiState};
 use motion_lab_core::picture::Role;
-use motion_lab_sim::manifest::{Hint, HintTask, Lesson, Widget, WidgetText};
+use motion_lab_sim::manifest::{Hint, Lesson, WidgetText};
 
 /// Side of the box before a hint, points, and the gap after it.
 const BOX: f32 = 10.0;
 const AFTER: f32 = 5.0;
-
-/// Whether a hint can be followed with the robot that the widget in front shows.
-pub(super) fn suits(hint: &Hint, state: &UiState) -> bool {
-    !hint.arm || state.anatomy.anatomy.lengths().is_some()
-}
-
-/// Whether the lesson under way is shown in the widget in front.
-pub(super) fn is_shown_here(under_way: &LessonState, state: &UiState) -> bool {
-    // what ends on the dashboard, such as a world that is run, says there that it is done
-    let leads_on = matches!(under_way.lesson.task, HintTask::EditWorld | HintTask::PlayPath);
-    let has_ended = under_way.took.is_some() && state.widget == Widget::Dashboard && leads_on;
-    under_way.lesson.widget == state.widget || has_ended
-}
 
 /// Shows the lesson under way, if it is one of the widget in front.
 pub fn lesson(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {

@@ -9,12 +9,13 @@ use bevy_egui::egui::{
 };
 
 use super::super::touch::worded;
-use super::hints::{done_in, is_shown_here, suits};
+use super::hints::done_in;
+use super::tasks::{has_its_robot, is_shown_here, is_true_of, mode_of, suits};
 use crate::window::ui::keys::{self, SessionAction};
 use crate::window::ui::paint::style::ScreenTheme;
-use crate::window::ui::{FrameColours, LessonState, UiState};
+use crate::window::ui::{Dashboard, FrameColours, LessonState, UiState};
 use motion_lab_core::picture::Role;
-use motion_lab_sim::manifest::{Hint, Lesson, WidgetText};
+use motion_lab_sim::manifest::{Hint, Lesson, Widget};
 
 /// Height of the sentence's room, points. Whatever is said in it, the pictures above stay where they are.
 const HEIGHT: f32 = 56.0;
@@ -36,11 +37,16 @@ struct Sentence {
 
 /// Shows in a room at the bottom of `ui` the sentence of the widget in front, and beside it a dot for each of its
 /// tasks. The misconception is shown only where it `is_true` of what is in front.
-pub fn sentence(ui: &mut Ui, widget: &WidgetText, side: i8, is_true: bool, look: &FrameColours, state: &mut UiState) {
+pub fn sentence(ui: &mut Ui, model: &Dashboard, side: i8, look: &FrameColours, state: &mut UiState) {
+    let (widget, is_true) = (state.widget.text(), is_true_of(model, state));
     let under_way = state.lesson.clone().filter(|under_way| is_shown_here(under_way, state));
     let are_hints_shown = !state.settings.are_hints_away(state.widget);
-    let hints: Vec<&Hint> = widget.hints.iter().filter(|hint| suits(hint, state)).collect();
-    let next = hints.iter().find(|hint| are_hints_shown && !state.settings.is_ticked_off(hint.task));
+    let is_possible = |hint: &&Hint| suits(hint, state) && has_its_robot(hint.task, model);
+    let hints: Vec<&Hint> = widget.hints.iter().filter(is_possible).collect();
+    let open = || hints.iter().filter(|hint| are_hints_shown && !state.settings.is_ticked_off(hint.task));
+    // of the tasks of the atlas first those of what a click does there now
+    let is_at_hand = |hint: &&&Hint| state.widget != Widget::Atlas || mode_of(hint.task) == state.atlas.mode;
+    let next = open().find(is_at_hand).or_else(|| open().next());
     let said = match (&under_way, next) {
         (Some(under_way), _) if under_way.took.is_some() => {
             Sentence { words: under_way.learnt.clone(), role: Role::Text, begins: None }
@@ -59,15 +65,11 @@ pub fn sentence(ui: &mut Ui, widget: &WidgetText, side: i8, is_true: bool, look:
     let frame = Frame::NONE.inner_margin(Margin::symmetric(side, 0));
     Panel::bottom("sentence").exact_size(HEIGHT).frame(frame).show_separator_line(false).show(ui, |ui| {
         let room = ui.max_rect();
-        let mut rest = room;
-        if under_way.is_some() || are_hints_shown {
-            let width = (hints.len() as f32 * TARGET).max(links_width(ui, under_way.is_some())) + TARGET;
-            let (left, right) = room.split_left_right_at_x((room.right() - width).max(room.left()));
-            rest = left;
-            let layout = Layout::top_down(Align::Max);
-            let mut ui = ui.new_child(UiBuilder::new().max_rect(right).layout(layout));
-            dots(&mut ui, &hints, &said, under_way.as_ref(), look, state);
-        }
+        let width = (hints.len() as f32 * TARGET).max(links_width(ui, under_way.is_some())) + TARGET;
+        let (rest, right) = room.split_left_right_at_x((room.right() - width).max(room.left()));
+        let layout = Layout::top_down(Align::Max);
+        let mut beside = ui.new_child(UiBuilder::new().max_rect(right).layout(layout));
+        dots(&mut beside, &hints, &said, under_way.as_ref(), look, state);
         let response = words(ui, rest, &said, look);
         if let Some(lesson) = said.begins.filter(|_| response.clicked()) {
             state.begin(lesson);
@@ -77,7 +79,7 @@ pub fn sentence(ui: &mut Ui, widget: &WidgetText, side: i8, is_true: bool, look:
 
 /// The words of the links, of a lesson under way or of the hints.
 const OF_LESSON: [&str; 3] = ["Next", "Again", "All tasks"];
-const OF_HINTS: [&str; 1] = ["Got it"];
+const OF_HINTS: [&str; 2] = ["Got it", "Tasks"];
 
 /// The longest of a lesson's usual times, for the room that it takes, seconds.
 const LONG: f64 = 100.0;
@@ -136,6 +138,9 @@ fn dots(
     let at_hand = under_way.map(|under_way| under_way.lesson).or(said.begins);
     ui.add_space(4.0);
     ui.allocate_ui_with_layout(vec2(ui.available_width(), TARGET), Layout::right_to_left(Align::Center), |ui| {
+        if under_way.is_none() && state.settings.are_hints_away(state.widget) {
+            return;
+        }
         ui.spacing_mut().item_spacing.x = 0.0;
         // from the right, which is where the row begins
         for hint in hints.iter().rev() {
@@ -160,9 +165,11 @@ fn dots(
     ui.allocate_ui_with_layout(vec2(ui.available_width(), 20.0), Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().interact_size.y = 20.0;
         let Some(under_way) = under_way else {
-            let hover = format!("Put these hints away: {}", keys::hint(SessionAction::Hints));
-            if ui.link(OF_HINTS[0]).on_hover_text(hover).clicked() {
-                state.settings.put_hints_away(state.widget);
+            let are_away = state.settings.are_hints_away(state.widget);
+            let what = if are_away { "Show what there is to try" } else { "Put what there is to try away" };
+            let hover = format!("{what}: {}", keys::hint(SessionAction::Hints));
+            if ui.link(OF_HINTS[usize::from(are_away)]).on_hover_text(hover).clicked() {
+                state.settings.toggle_hints(state.widget);
             }
             return;
         };
