@@ -60,7 +60,7 @@ impl RowGroups {
     /// The rows by the values of all of these together, without the combinations that no row has. `None` where there
     /// are too many.
     pub fn crossed(of: &[&RowGroups]) -> Option<Self> {
-        let Some((first, others)) = of.split_first() else { return None };
+        let (first, others) = of.split_first()?;
         let mut crossed = RowGroups {
             parameters: first.parameters.clone(),
             groups: first.groups.clone(),
