@@ -77,6 +77,15 @@ fn what_is_added_is_drawn_by_a_drag_with_its_size_at_the_pointer() {
     assert_eq!(ends(&harness, "wall 2").unwrap()[0], [9.0, 4.0]);
     draw(&mut harness, "Add wall", [[6.0, 4.5], [7.0, 4.5]], true);
     assert_eq!(ends(&harness, "wall 3"), None, "Escape drops it");
+    // let go off the paper, it is not drawn, and the next click adds one of the usual size: two units to either side
+    draw(&mut harness, "Add wall", [[6.0, 4.5], [14.0, 4.5]], false);
+    assert_eq!((ends(&harness, "wall 3"), atlas(&harness).drawn_from), (None, None));
+    let there = at(&harness, [7.0, 4.5]);
+    click_at(&mut harness, there);
+    let width = 4.0 * atlas(&harness).unit();
+    let added = ends(&harness, "wall 3").expect("a click adds it");
+    assert!((added[1][0] - added[0][0] - width).abs() < 1e-9, "{added:?}");
+    click(&mut harness, "Undo");
     // one step back takes one of them away
     click(&mut harness, "Undo");
     assert_eq!((ends(&harness, "wall 2"), ends(&harness, "wall").is_some()), (None, true));

@@ -178,9 +178,15 @@ fn put(on: &ScreenSheet, atlas: &mut AtlasState) -> bool {
     done && atlas.refusal().is_none()
 }
 
-/// Handles the pointer while a thing is to be added: a click adds it there, a drag draws it.
+/// Handles the pointer while a thing is to be added: a click adds it there, a drag draws it; one that ends off the
+/// paper draws nothing.
 fn draw(on: &ScreenSheet, template: Template, reach: Option<f64>, atlas: &mut AtlasState) {
-    let Some(at) = on.held() else { return };
+    let Some(at) = on.held() else {
+        if on.response.drag_stopped() {
+            atlas.drawn_from = None;
+        }
+        return;
+    };
     if on.response.clicked() {
         atlas.add(template, at);
     } else if on.response.drag_started() {

@@ -36,7 +36,7 @@ struct Sentence {
 }
 
 /// Shows in a room at the bottom of `ui` the sentence of the widget in front, and beside it a dot for each of its
-/// tasks. The misconception is shown only where it `is_true` of what is in front.
+/// tasks. The misconception is shown only where it [is true](is_true_of) of what is in front.
 pub fn sentence(ui: &mut Ui, model: &Dashboard, side: i8, look: &FrameColours, state: &mut UiState) {
     let (widget, is_true) = (state.widget.text(), is_true_of(model, state));
     let under_way = state.lesson.clone().filter(|under_way| is_shown_here(under_way, state));
