@@ -7,12 +7,15 @@ mod layout;
 mod lesson_ends;
 mod lessons;
 mod numbers;
+mod pair;
 mod tasks_done;
 mod word_count;
 
 use super::*;
 use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::simulation::TransportCommand;
+
+const TABLET: [f32; 2] = [820.0, 1180.0];
 
 /// Puts the widget with this word on the rail in front.
 fn front(harness: &mut Harness<'_, Lab>, word: &str) {
@@ -112,6 +115,7 @@ fn the_name_of_a_chooser_stands_before_it() {
 fn a_number_is_asked_for_before_it_is_shown() {
     let mut harness = lab(WIDE);
     front(&mut harness, "Query");
+    click(&mut harness, "Guess first");
     assert!(harness.query_by_label_contains("0.0306").is_none());
     harness.get_by_label_contains("the links are given a radius of 3 cm").focus();
     harness.run_steps(2);

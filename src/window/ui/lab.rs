@@ -25,8 +25,8 @@ const NARROW: f32 = 720.0;
 /// Height below which a window that is wider than high has its words beside the picture, points.
 const LOW: f32 = 440.0;
 
-/// The same where controls are as large as a fingertip.
-const LOW_FOR_FINGERS: f32 = 600.0;
+/// The same for a narrow window, and where controls are as large as a fingertip.
+const LOW_AND_NARROW: f32 = 600.0;
 
 /// Width of the rail, points.
 const RAIL: f32 = 76.0;
@@ -37,7 +37,8 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
     state.pointer.is_touched |= ui.input(|i| i.any_touches());
     // whatever brought the dashboard to the front, no run waits there
     state.played &= state.widget != Widget::Dashboard;
-    let low = size.y < if state.pointer.is_touched { LOW_FOR_FINGERS } else { LOW } && size.x > size.y;
+    let is_cramped = state.pointer.is_touched || size.x < NARROW;
+    let low = size.y < if is_cramped { LOW_AND_NARROW } else { LOW } && size.x > size.y;
     let narrow = size.x < NARROW || low;
     state.screen.is_narrow = narrow;
     let look = FrameColours::of(ui, state, narrow, low);
@@ -110,7 +111,7 @@ pub fn lab(ui: &mut Ui, model: &Dashboard, history: &History, state: &mut UiStat
         dashboard::view::dashboard(ui, model, history, &look, state, commands)
     } else {
         let side = if narrow { 12 } else { 20 };
-        if !narrow {
+        if !low {
             frame::sentence(ui, model, side, &look, state);
         }
         let margins = Frame::NONE.inner_margin(Margin::symmetric(side, if low { 6 } else { 14 }));

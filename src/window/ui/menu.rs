@@ -66,12 +66,10 @@ pub fn header(
     ui.horizontal(|ui| {
         ui.vertical(|ui| {
             ui.set_max_width((ui.available_width() - room).max(0.0));
-            if !look.narrow {
-                frame::name_and_key(ui, words, look, state);
-            } else if is_upright(look) || !frame::is_true_of(model, state) {
+            if look.narrow {
                 frame::name(ui, words, look);
             } else {
-                frame::title(ui, words, look);
+                frame::name_and_key(ui, words, look, state);
             }
         });
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -94,13 +92,8 @@ pub fn menu_button(
     fold::menu(ui, "Menu", |ui| menu(ui, model, &[], look, state, commands));
 }
 
-/// Whether words stand under the picture, one screen below the other.
-fn is_upright(look: &FrameColours) -> bool {
-    look.narrow && !look.low
-}
-
-/// Shows the head of a widget other than the dashboard: title, colour key and buttons, on a narrow screen also the
-/// lesson under way. On an upright narrow screen the key stands under the picture with [`foot`].
+/// Shows the head of a widget other than the dashboard: title, colour key and buttons, in a low room also the
+/// sentence. On an upright narrow screen the key stands under the picture with [`foot`].
 pub fn head(
     ui: &mut Ui,
     words: &WidgetText,
@@ -110,23 +103,20 @@ pub fn head(
     commands: &mut Vec<Command>,
 ) {
     header(ui, words, model, look, state, commands);
-    if look.narrow {
-        if look.low {
-            frame::key_row(ui, words, look, state);
-        }
-        frame::lesson(ui, look, state);
+    if look.low {
+        frame::sentence_in_rows(ui, model, look, state);
+        frame::key_row(ui, words, look, state);
     }
     ui.add_space(6.0);
 }
 
-/// Shows at the end of the words under a picture what [`head`] leaves out on an upright narrow screen.
+/// Shows at the end of a narrow screen's words what [`head`] leaves out there.
 pub fn foot(ui: &mut Ui, words: &WidgetText, look: &FrameColours, state: &mut UiState) {
-    if is_upright(look) {
+    if look.narrow {
         ui.add_space(10.0);
-        // once a lesson is done it stands above
-        if !frame::is_done_here(state) {
-            frame::misconception(ui, words, look);
-        }
+        frame::misconception(ui, words, look);
+    }
+    if look.narrow && !look.low {
         frame::key_row(ui, words, look, state);
     }
 }

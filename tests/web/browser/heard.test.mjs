@@ -90,7 +90,7 @@ lab("the rail is navigation, headings skip no level, and what opens says whether
   await until(/^Any robot, any world$/, "false");
   await lab.click("Any robot, any world");
   await until(/^Any robot, any world$/, "true");
-  await until(/^Guess first$/, "true");
+  await until(/^Guess first$/, "false");
   for (const id of ["dashboard", "anatomy", "cspace", "atlas", "plan"]) {
     await lab.send({ do: "widget", id });
     await lab.until((s) => s.widget === id);

@@ -319,6 +319,7 @@ where
             rejected: if self.motions().next().is_none() { self.rejected() } else { self.hit() },
             sensed: self.planner.sensed(),
             barrier: self.planner.barrier().map(|(barrier, checker)| DrawnBarrier::new(barrier, checker)),
+            rivals: Vec::new(),
         }
     }
 

@@ -25,6 +25,8 @@ pub struct Drawn {
     pub sensed: Option<Sensed>,
     /// What parts the start from the goal, where that is proven.
     pub barrier: Option<DrawnBarrier>,
+    /// The paths of the other planners of a race.
+    pub rivals: Vec<Vec<AnyConfiguration>>,
 }
 
 /// The proof that there is no path, to be drawn.
@@ -61,7 +63,7 @@ impl Drawn {
     /// The ends alone, before anything is grown.
     pub fn of_ends(ends: [AnyConfiguration; 2]) -> Self {
         let (edges, path, corners) = (Vec::new(), Vec::new(), Vec::new());
-        Drawn { ends, edges, path, corners, rejected: None, sensed: None, barrier: None }
+        Drawn { ends, edges, path, corners, rejected: None, sensed: None, barrier: None, rivals: Vec::new() }
     }
 
     /// The number of the path's legs in words.

@@ -25,6 +25,7 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
     let [start, goal] = drawn.ends;
     items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Goal, 0.4));
     items.extend(faced("start", "the start", robot, &start));
+    items.extend(rivals(drawn.rivals.iter().map(way).collect()));
     if !drawn.path.is_empty() {
         items.push(path(vec![way(&drawn.path)]));
     }
@@ -143,6 +144,7 @@ pub fn space_items(slice: &Slice, drawn: &Drawn) -> Vec<Item> {
     let lines = |motion: &Vec<AnyConfiguration>| lines_through(slice, motion).unwrap_or_default();
     let mut items: Vec<Item> = drawn.barrier.iter().map(|barrier| barrier_in(slice, barrier)).collect();
     items.push(growth(drawn.edges.iter().flat_map(lines).collect()));
+    items.extend(rivals(drawn.rivals.iter().flat_map(lines).collect()));
     if !drawn.path.is_empty() {
         items.push(path(lines(&drawn.path)));
     }
@@ -171,6 +173,13 @@ fn growth(lines: Vec<Vec<Point2>>) -> Item {
 fn path(lines: Vec<Vec<Point2>>) -> Item {
     let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
     Item::new("path", "the path", Role::Path, drawing).stroked(Line::solid(2.5))
+}
+
+fn rivals(lines: Vec<Vec<Point2>>) -> Option<Item> {
+    let is_there = !lines.is_empty();
+    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+    let line = Line::solid(1.5).dashed(Dash::Dashed).at_opacity(0.7);
+    is_there.then(|| Item::new("rivals", "paths of the other planners", Role::Path, drawing).stroked(line))
 }
 
 fn refused(lines: Vec<Vec<Point2>>) -> Item {

@@ -5,6 +5,7 @@ use super::*;
 #[test]
 fn a_prompt_shows_its_scene_once_it_is_answered() {
     let mut harness = on("intersects");
+    click(&mut harness, "Guess first");
     let guess = |harness: &mut Harness<'_, Lab>, question: &str, text: &str| {
         assert!(["Show", "Next question"].iter().all(|name| harness.query_by_label(name).is_none()), "hidden");
         harness.get_by_label_contains(question).focus();

@@ -198,3 +198,17 @@ fn what_is_nearest_is_drawn_where_the_robot_drives() {
     click(&mut harness, "nearest points");
     assert!(painted(&harness).is_empty());
 }
+
+#[test]
+fn a_robot_that_is_driven_is_handed_on_while_the_run_plays() {
+    let mut harness = lab(WIDE);
+    arm_rusty(&mut harness);
+    harness.key_down(Key::ArrowUp);
+    harness.run_steps(20);
+    assert_eq!(harness.state().transport().playback, Playback::Playing);
+    click(&mut harness, "Query");
+    let there = harness.state().robot(0).coordinates;
+    assert_ne!(there[..], World::apartment().robots[0].start[..], "it was driven");
+    assert_eq!(asked(&harness).q().coordinates(), there);
+    assert_eq!(**asked(&harness).world(), World::apartment());
+}

@@ -5,7 +5,6 @@ use crate::window::tests::safe::{read_whole, words};
 use crate::window::ui::Settings;
 use motion_lab_sim::manifest::Widget;
 
-const TABLET: [f32; 2] = [820.0, 1180.0];
 const LOW: [[f32; 2]; 2] = [[640.0, 400.0], [844.0, 390.0]];
 
 /// Width of the rail and of the margins beside a picture, points.

@@ -138,7 +138,10 @@ const LESSONS: [Lesson; 11] = [
         "Guess",
         "Query",
         |reader| {
-            reader.click("Query");
+            // as *Next* of the task before it does: its question is open then
+            reader.actions += 1;
+            ui(&mut reader.harness, |ui| ui.begin(motion_lab_sim::manifest::Lesson::of("guess").unwrap()));
+            reader.harness.run_steps(3);
         },
         |reader| {
             reader.enter("the links are given a radius of 3 cm", "0.05");
@@ -338,7 +341,7 @@ fn a_hint_begins_its_lesson_and_all_tasks_ends_it() {
 }
 
 #[test]
-fn on_a_phone_the_task_stands_above_the_picture_in_every_widget() {
+fn on_a_phone_the_task_stands_under_the_picture_in_every_widget() {
     for lesson in ["two_headings", "near", "over_edge", "pick_wall", "find_path"] {
         let lesson = motion_lab_sim::manifest::Lesson::of(lesson).unwrap();
         let mut harness = lab(PHONE);
@@ -349,8 +352,8 @@ fn on_a_phone_the_task_stands_above_the_picture_in_every_widget() {
             _ => lesson.text(),
         };
         let place = harness.get_by_label(text).rect();
-        assert!(place.top() > 0.0 && place.bottom() < 0.35 * PHONE[1] && place.right() <= PHONE[0], "{place:?}");
-        // once it is done, what it removes stands below the picture, once
+        assert!(place.top() > 0.55 * PHONE[1] && place.bottom() < PHONE[1] && place.right() <= PHONE[0], "{place:?}");
+        // once it is done, what it removes stands among the words, once
         ui(&mut harness, |ui| ui.lesson.as_mut().unwrap().took = Some(3.0));
         harness.run_steps(3);
         let removed = &lesson.widget.text().misconception;

@@ -1,8 +1,8 @@
 //! The robot in front, wherever it is shown: what a widget hands on to the one that comes in front after it, and what
 //! is put into the run from there.
 //!
-//! A run that plays has no one state to be asked about, and what a widget begins with was nobody's choice, so neither
-//! is handed on. A plan under way and an edited world are not replaced: they are another question.
+//! A robot on its tour in a run that plays, and what a widget begins with, were nobody's choice, so neither is handed
+//! on. A plan under way and an edited world are not replaced: they are another question.
 
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ impl RobotInFront {
     /// The robot of the widget in front, if somebody chose its state.
     fn of(model: &Dashboard, state: &UiState) -> Option<Self> {
         match state.widget {
-            Widget::Dashboard => Self::of_run(model, state).filter(|_| !model.playing),
+            Widget::Dashboard => Self::of_run(model, state),
             Widget::Anatomy | Widget::Cspace => Some(Self::of_query(&state.anatomy.anatomy))
                 .filter(|shown| *shown != Self::of_query(&Anatomy::default())),
             Widget::Plan => {
@@ -53,10 +53,11 @@ impl RobotInFront {
         }
     }
 
-    /// The robot of the dashboard's world in front, at the tick shown. `None` for a kind that is not the lab's.
+    /// The robot of the dashboard's world in front, at the tick shown, where the run was stopped there or the robot is
+    /// driven by hand. `None` for a kind that is not the lab's.
     fn of_run(model: &Dashboard, state: &UiState) -> Option<Self> {
         let (_, cockpit) = front(&model.cockpits, state)?;
-        let shown = chosen(cockpit, state)?;
+        let shown = chosen(cockpit, state).filter(|robot| !model.playing || robot.manual)?;
         let (_, q) = AnyRobot::of_kind(&shown.kind, &shown.coordinates)?;
         let world = Arc::clone(&cockpit.standing);
         let source = WorldSource::of(&world).unwrap_or(WorldSource::Unsaved);

@@ -4,16 +4,18 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{
     ComboBox, DragValue, Id, Label, Response, RichText, ScrollArea, Slider, TextEdit, TextStyle, Ui, WidgetInfo,
-    WidgetType, vec2,
+    WidgetType,
 };
 
 use super::in_front::PutInRun;
+use super::loupe::loupe;
 use super::state::Guesses;
+use crate::window::ui::cspace::chart::{ChartNames, chart, remember};
 use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
-use crate::window::ui::paint::fold::fold;
-use crate::window::ui::paint::frame::{formulas, headline, next_hint};
-use crate::window::ui::paint::sheet::{sheet, split, steady, two_columns};
+use crate::window::ui::paint::fold::{fold, unfolding};
+use crate::window::ui::paint::frame::{formulas, headline};
+use crate::window::ui::paint::sheet::{sheet, split, split_chart, steady, two_columns};
 use crate::window::ui::{AnatomyState, Command, Dashboard, FrameColours, Notice, UiState};
 use motion_lab_core::configuration::Configuration;
 use motion_lab_core::picture::{Role, in_signs, true_minus};
@@ -28,14 +30,17 @@ const SIDE: f32 = 380.0;
 /// Width of the panel from which it has two columns, points.
 const TWO: f32 = 600.0;
 
+/// Width of a slider's number and name, points.
+const FIELD: f32 = 120.0;
+
+/// Largest share of the height for the chart above the panel.
+const ABOVE: f32 = 0.4;
+
 /// Difference of two lengths from which on they are unequal, metres.
 const UNEQUAL: f64 = 0.05;
 
 /// The least room for a name and its list, points.
 const CHOOSER: f32 = 150.0;
-
-/// Side of the close view, points.
-const INSET: f32 = 208.0;
 
 /// Shows the widget.
 pub fn anatomy_view(
@@ -52,12 +57,20 @@ pub fn anatomy_view(
     let before = state.anatomy.anatomy.clone();
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(&state.anatomy.backdrop, room, look, SIDE);
+    let (space, beside) = split_chart(beside, state.cspace.still(&state.anatomy.anatomy), ABOVE, look);
     let shown = &state.anatomy;
     let (backdrop, overlay) = (Arc::clone(&shown.backdrop), shown.anatomy.overlay());
     let spoken = shown.anatomy.described();
     let on = sheet(ui, paper, spoken, &backdrop, &overlay, look);
     if let Some(to) = on.held().filter(|_| on.response.dragged() || on.response.clicked()) {
         state.anatomy.anatomy.drag(to);
+        remember(state);
+    }
+    if !look.narrow {
+        loupe(ui, &on, &state.anatomy.anatomy, look);
+    }
+    if let Some(space) = space {
+        chart(ui, space, ChartNames::Spoken, look, state);
     }
     state.pointer.over = on.pointed_at(&overlay).or_else(|| on.pointed_at(&backdrop));
     // a hint for who has not dragged it yet: words at the pointer hide the contact
@@ -84,7 +97,6 @@ pub fn anatomy_view(
                 });
             } else {
                 asked(ui, look, state);
-                next_hint(ui, words, look, state);
                 more(ui, model, look, state, commands);
             }
             crate::window::ui::menu::foot(ui, words, look, state);
@@ -134,12 +146,11 @@ fn asked(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
     }
 }
 
-/// Shows the close view, a guess, and what can be copied or chosen.
+/// Shows a guess, and what can be copied or chosen.
 fn more(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
-    if !look.narrow {
-        inset(ui, look, state);
-    }
-    fold(ui, "Guess first", !look.narrow, |ui| {
+    let lesson = state.lesson.as_ref().filter(|under_way| under_way.took.is_none());
+    let is_asked = lesson.is_some_and(|under_way| under_way.lesson.task == HintTask::Guess);
+    unfolding(ui, "Guess first", is_asked, |ui| {
         prompts(ui, PromptSeries::Queries, state);
     });
     ui.horizontal_wrapped(|ui| {
@@ -163,7 +174,7 @@ fn more(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState
 /// Shows sliders for the configuration; on the swept tab also for the step to the second configuration.
 fn sliders(ui: &mut Ui, state: &mut UiState) {
     let names = state.anatomy.anatomy.q().coordinate_names();
-    ui.spacing_mut().slider_width = 180.0;
+    ui.spacing_mut().slider_width = (ui.available_width() - FIELD).clamp(60.0, 180.0);
     for (i, name) in names.iter().enumerate() {
         coordinate(ui, state, i, name);
     }
@@ -185,21 +196,6 @@ fn sliders(ui: &mut Ui, state: &mut UiState) {
             state.refuse(typed.refused(&response));
         }
     }
-}
-
-/// Shows the surroundings of the nearest points, enlarged.
-fn inset(ui: &mut Ui, look: &FrameColours, state: &mut UiState) {
-    let Some(close) = state.anatomy.anatomy.close_up() else { return };
-    let (rect, _) = ui.allocate_exact_size(vec2(INSET, INSET), bevy_egui::egui::Sense::hover());
-    let painter = ui.painter_at(rect);
-    crate::window::ui::paint::canvas::paint(
-        &painter,
-        &close,
-        &crate::window::ui::paint::canvas::fit(&close, rect),
-        look,
-    );
-    let frame = bevy_egui::egui::Stroke::new(1.0, look.colour(Role::Hairline));
-    painter.rect_stroke(rect, 0.0, frame, bevy_egui::egui::StrokeKind::Inside);
 }
 
 /// Shows a series of prompts one by one: each asks for a guess before it shows the number.

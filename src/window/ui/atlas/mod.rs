@@ -1,9 +1,12 @@
 //! The world atlas in the window.
 
+mod atlas_space;
+mod chart;
 mod editing;
 mod entering;
 mod field;
 mod panel;
+mod putting;
 mod shown;
 mod state;
 pub(crate) mod view;

@@ -47,7 +47,7 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasStat
             ui.label("not saved in a file");
         }
     });
-    ui.label(worded(ui, "Click a thing, and drag it or its handles; Alt leaves out the snapping. A ring on an edge makes a corner; a corner dragged onto the next goes away."));
+    ui.label(worded(ui, "Drag a thing or its handles; Alt leaves out the snapping."));
     add_buttons(ui, look, atlas);
     // room for a warning of two lines: buttons and fields stay where they are
     let two = 2.0 * ui.text_style_height(&TextStyle::Body);
@@ -72,12 +72,14 @@ pub(super) fn edit_panel(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasStat
 /// Shows a button for each thing that can be added, and a list of the robots.
 fn add_buttons(ui: &mut Ui, look: &FrameColours, atlas: &mut AtlasState) {
     ui.horizontal_wrapped(|ui| {
+        ui.label("Add");
         for template in Template::THINGS {
-            let words = format!("Add {}", template.title());
-            let response = LabButton::new(&words).selected(atlas.placing == Some(template)).show(ui, look);
+            let (title, words) = (template.title(), format!("Add {}", template.title()));
+            let button = LabButton::new(&title).spoken(&words).selected(atlas.placing == Some(template));
+            let response = button.show(ui, look);
             asked_for(&response, template, atlas);
         }
-        let robots = ComboBox::from_id_salt("new robot").selected_text("Add robot");
+        let robots = ComboBox::from_id_salt("new robot").selected_text("robot");
         let robots = robots.show_ui(ui, |ui| {
             for template in Template::robots() {
                 let response = ui.selectable_label(atlas.placing == Some(template), template.title());
@@ -162,6 +164,9 @@ fn fields(ui: &mut Ui, atlas: &mut AtlasState, of: &str) {
             }
         }
     });
+    if numbers.iter().any(|number| number.name == "x 2") {
+        ui.label(worded(ui, "A ring on an edge makes a corner; a corner dragged onto the next goes away."));
+    }
     if numbers.len() > MAX_FIELDS {
         ui.label(format!("{} more: drag its corners.", numbers.len() - MAX_FIELDS));
     }

@@ -4,13 +4,13 @@ use bevy_egui::egui::{
     Align2, ComboBox, RichText, ScrollArea, Slider, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType, vec2,
 };
 
+use super::chart;
 use super::panel::edit_panel;
 use super::state::{AtlasState, Mode};
 use crate::window::ui::anatomy::in_front::PutInRun;
 use crate::window::ui::keys::{AtlasAction, SessionAction, keep_arrows};
 use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
-use crate::window::ui::paint::frame::next_hint;
 use crate::window::ui::paint::plate::{PlateAnchor, plate, refusal};
 use crate::window::ui::paint::sheet::{ScreenSheet, sheet, split};
 use crate::window::ui::paint::touch::worded;
@@ -44,6 +44,7 @@ pub fn atlas_view(
     let room = ui.available_rect_before_wrap();
     let still = state.atlas.still();
     let (paper, beside) = split(&still, room, look, SIDE);
+    let (space, beside) = chart::split(ui, beside, look, &mut state.atlas);
     let fit = crate::window::ui::paint::canvas::fit(&still, paper);
     let mut moving = state.atlas.over();
     if state.settings.labels {
@@ -113,12 +114,16 @@ pub fn atlas_view(
         },
         Mode::Measure => {}
     }
+    if let Some(space) = space
+        && chart::chart(ui, space, look, &mut state.atlas)
+    {
+        state.did.push(HintTask::Put);
+    }
     ui.scope_builder(UiBuilder::new().max_rect(beside), |ui| {
         ScrollArea::vertical().id_salt("atlas").auto_shrink(false).show(ui, |ui| {
             if look.low {
                 crate::window::ui::menu::head(ui, words, model, look, state, commands);
             }
-            next_hint(ui, words, look, state);
             beside_the_paper(ui, model, look, state, commands);
             crate::window::ui::menu::foot(ui, words, look, state);
         });

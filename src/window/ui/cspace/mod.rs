@@ -1,5 +1,6 @@
 //! The configuration space in the window.
 
+pub(crate) mod chart;
 pub(crate) mod linked;
 mod linked_state;
 pub(crate) mod put_at;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::{CellMap, Slice};
-use motion_lab_core::picture::Role;
+use motion_lab_core::picture::{Picture, Role};
 use motion_lab_core::robots::ConfigurationError;
 use motion_lab_sim::anatomy::Anatomy;
 use motion_lab_sim::capture::{self, Captured};
@@ -54,6 +54,11 @@ impl CspaceState {
         };
         cells.refine(u32::MAX);
         Ok(capture::cspace(anatomy, &cells, self.trace.clone()))
+    }
+
+    /// The picture of what is known of this robot's space; `None` before anything is.
+    pub fn still(&self, anatomy: &Anatomy) -> Option<&Picture> {
+        self.cells.as_ref().filter(|cells| are_of(cells, anatomy)).map(|cells| &**cells.picture())
     }
 
     /// How much of the space is known to be what a role of the colour key stands for, in words such as `74.2 %`; `None`

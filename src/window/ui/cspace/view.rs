@@ -4,24 +4,17 @@ use std::sync::Arc;
 
 use bevy_egui::egui::{Label, Rect, RichText, ScrollArea, TextStyle, TextWrapMode, Ui, pos2, vec2};
 
-use super::torus::torus;
+use super::chart::{ChartNames, chart, remember};
 use crate::window::ui::anatomy::in_front::PutInRun;
 use crate::window::ui::anatomy::view::{annulus, coordinate, prompts, robot_choice, world_choice};
-use crate::window::ui::paint::canvas;
 use crate::window::ui::paint::fold::fold;
-use crate::window::ui::paint::frame::{formulas, headline, next_hint, rows_of_words};
+use crate::window::ui::paint::frame::{formulas, headline, rows_of_words};
 use crate::window::ui::paint::sheet::{sheet, two_columns};
 use crate::window::ui::{Command, Dashboard, FrameColours, UiState};
-use motion_lab_core::cspace::overlay_items;
-use motion_lab_core::geometry::Point2;
-use motion_lab_core::picture::{Picture, Role, readout, readout_lines};
+use motion_lab_core::picture::{Role, readout, readout_lines};
 use motion_lab_core::robots::AnyRobot;
 use motion_lab_sim::anatomy::{PromptSeries, Tab, twin_items};
-use motion_lab_sim::lens::remember_in;
-use motion_lab_sim::manifest::{HintTask, Widget};
-
-/// Radius of the robot's point with its ring, points.
-const POINT: f64 = 6.0;
+use motion_lab_sim::manifest::Widget;
 
 /// Height of the words under two papers that lie one above the other, points.
 const UNDER_TWO: f32 = 224.0;
@@ -38,10 +31,6 @@ pub fn cspace_view(
     let words = Widget::Cspace.text();
     if !look.low {
         crate::window::ui::menu::head(ui, words, model, look, state, commands);
-    }
-    let anatomy = state.anatomy.anatomy.clone();
-    if state.cspace.refine(&anatomy) {
-        ui.ctx().request_repaint();
     }
     let room = ui.available_rect_before_wrap();
     let text = if look.low {
@@ -60,11 +49,7 @@ pub fn cspace_view(
     let left = Rect::from_min_size(room.min + vec2(margin, 0.0), vec2(side, side));
     let right = if is_above { left.translate(vec2(0.0, side + 8.0)) } else { left.translate(vec2(side + 20.0, 0.0)) };
     workspace(ui, left, look, state);
-    if state.cspace.is_torus && state.cspace.cells.as_ref().is_some_and(|cells| cells.map().slice().wraps()) {
-        torus(ui, right, look, state);
-    } else {
-        space(ui, right, look, state);
-    }
+    chart(ui, right, ChartNames::Shown, look, state);
     let below = Rect::from_min_max(pos2(room.left(), right.bottom() + 6.0), room.max);
     ui.scope_builder(bevy_egui::egui::UiBuilder::new().max_rect(below), |ui| {
         if narrow {
@@ -73,7 +58,6 @@ pub fn cspace_view(
                     crate::window::ui::menu::head(ui, words, model, look, state, commands);
                 }
                 readouts(ui, look, state);
-                next_hint(ui, words, look, state);
                 choices(ui, state);
                 PutInRun::of_query(&state.anatomy.anatomy).show(ui, model, look, commands);
                 fold(ui, "Guess first", false, |ui| prompts(ui, PromptSeries::Tips, state));
@@ -165,38 +149,4 @@ fn workspace(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState)
         state.anatomy.anatomy.drag(to);
         remember(state);
     }
-}
-
-/// Shows the configuration space, where the robot's point can be dragged.
-fn space(ui: &mut Ui, paper: Rect, look: &FrameColours, state: &mut UiState) {
-    let Some(cells) = &state.cspace.cells else { return };
-    let anatomy = &state.anatomy.anatomy;
-    let (slice, still) = (cells.map().slice().clone(), Arc::clone(cells.picture()));
-    let overlay = anatomy.in_space(state.cspace.trace.clone());
-    let fit = canvas::fit(&still, paper);
-    let regions = cells.names_off(Point2::from(slice.point(&anatomy.q())), &fit);
-    let moving = Picture::new(still.name.clone(), still.bounds).with(regions).with(overlay_items(&slice, &overlay));
-    let names: Vec<&str> = cells.regions().iter().map(|region| region.name.as_str()).collect();
-    let blocked = if names.is_empty() { String::new() } else { format!(". Blocked regions: {}", names.join(", ")) };
-    let spoken = format!("configuration space. The robot is the point {}{blocked}", anatomy.q());
-    let on = sheet(ui, paper, spoken, &still, &moving, look);
-    // on a torus the way beyond an edge goes on at the opposite one, however far
-    let held = if slice.wraps() { on.held_anywhere() } else { on.held() };
-    // who presses among the figures at the axes means no point
-    let from = ui.input(|i| i.pointer.press_origin());
-    let from = from.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
-    let is_on_chart = from.is_some_and(|p| cells.is_on_chart(p, POINT / on.fit.px_per_metre()));
-    let is_meant = is_on_chart && (on.response.dragged() || on.response.clicked());
-    if let Some((q, is_over_edge)) = held.filter(|_| is_meant).map(|to| cells.configuration_at(to)) {
-        // a point of the slice is a configuration of the robot
-        if state.anatomy.anatomy.set_q(q).is_ok() {
-            remember(state);
-            state.did.push(HintTask::MovePoint);
-            state.did.extend(is_over_edge.then_some(HintTask::OverEdge));
-        }
-    }
-}
-
-fn remember(state: &mut UiState) {
-    remember_in(&mut state.cspace.trace, state.anatomy.anatomy.q());
 }

@@ -85,7 +85,7 @@ struct Screen {
     ctx: Context,
     size: Vec2,
     state: UiState,
-    shapes: Vec<Shape>,
+    shapes: Vec<egui::epaint::ClippedShape>,
     /// The names of all controls, with their rectangles.
     controls: Vec<(String, Rect)>,
 }
@@ -117,8 +117,8 @@ impl Screen {
         };
         self.controls = tree.into_iter().flat_map(|tree| tree.nodes).filter_map(named).collect();
         // what has scrolled away is not seen
-        let seen = output.shapes.into_iter().filter(|s| s.clip_rect.intersects(s.shape.visual_bounding_rect()));
-        self.shapes = seen.map(|clipped| clipped.shape).collect();
+        self.shapes = output.shapes;
+        self.shapes.retain(|s| s.clip_rect.intersects(s.shape.visual_bounding_rect()));
         commands
     }
 
@@ -150,19 +150,21 @@ impl Screen {
 
     /// All words with the rectangles of their ink.
     fn texts(&self) -> Vec<(String, Rect)> {
-        fn collect(shape: &Shape, out: &mut Vec<(String, Rect)>) {
+        fn collect(shape: &Shape, clip: Rect, out: &mut Vec<(String, Rect)>) {
             match shape {
                 Shape::Text(text) if !text.galley.text().is_empty() => {
-                    // where the ink is: the first line of words in a row is indented within its own rectangle
+                    // where the ink is: the first line of words in a row is indented within its own rectangle, and
+                    // what is scrolled to ends where its room does
                     let rect = text.galley.mesh_bounds.translate(text.pos.to_vec2());
+                    let rect = rect.with_max_y(rect.bottom().min(clip.bottom()));
                     out.push((text.galley.text().to_owned(), rect));
                 }
-                Shape::Vec(shapes) => shapes.iter().for_each(|s| collect(s, out)),
+                Shape::Vec(shapes) => shapes.iter().for_each(|s| collect(s, clip, out)),
                 _ => {}
             }
         }
         let mut out = Vec::new();
-        self.shapes.iter().for_each(|s| collect(s, &mut out));
+        self.shapes.iter().for_each(|s| collect(&s.shape, s.clip_rect, &mut out));
         out
     }
 }
@@ -176,10 +178,8 @@ fn all_words_stay_on_the_screen_and_apart() {
         for (i, (text, rect)) in texts.iter().enumerate() {
             assert!(page.contains_rect(*rect), "{text:?} at {rect} leaves the page of {size}");
             for (other, place) in &texts[..i] {
-                assert!(
-                    !rect.shrink(0.5).intersects(place.shrink(0.5)),
-                    "{text:?} at {rect} runs into {other:?} at {place}, {size}"
-                );
+                let is_apart = !rect.shrink(0.5).intersects(place.shrink(0.5));
+                assert!(is_apart, "{text:?} at {rect} runs into {other:?} at {place}, {size}");
             }
         }
         assert!(texts.len() > 10, "the test no longer finds the words");
@@ -280,7 +280,7 @@ fn contact_shows_in_the_goals_red() {
         let mut model = model();
         model.cockpits[1].robots[0].flash = flash;
         let red = Theme::Light.tint(Role::Goal, 0.85);
-        Screen::new(WIDE, &model).shapes.iter().any(|s| matches!(s, Shape::Path(path) if path.fill == red))
+        Screen::new(WIDE, &model).shapes.iter().any(|s| matches!(&s.shape, Shape::Path(path) if path.fill == red))
     };
     assert!(painted(true) && !painted(false));
 }

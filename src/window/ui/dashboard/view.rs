@@ -58,7 +58,7 @@ pub fn dashboard(
             .frame(Frame::NONE.inner_margin(margin))
             .show(ui, |ui| plots(ui, model, history, look, state, commands));
     }
-    if has_head {
+    if !look.low && !state.screen.fills {
         frame::sentence(ui, model, side, look, state);
     }
     let margin = Margin { top: if has_head { UNDER_HEAD } else { above }, ..Margin::symmetric(side, above) };

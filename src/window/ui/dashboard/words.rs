@@ -160,12 +160,8 @@ fn words(ui: &mut Ui, cockpit: &Cockpit, look: &FrameColours, state: &mut UiStat
         let words = Widget::Dashboard.text();
         ui.add_space(10.0);
         frame::name(ui, words, look);
-        // once a lesson is done it comes with the next hint
-        if !frame::is_done_here(state) || look.low {
-            frame::misconception(ui, words, look);
-        }
+        frame::misconception(ui, words, look);
         frame::key_row(ui, words, look, state);
-        frame::next_hint(ui, words, look, state);
     }
 }
 

@@ -25,12 +25,22 @@ pub struct LabButton<'a> {
     enabled: bool,
     selected: Option<bool>,
     keys: &'a str,
+    spoken: &'a str,
 }
 
 impl<'a> LabButton<'a> {
     /// A button with this label, which is also its accessible name.
     pub fn new(label: &'a str) -> Self {
-        LabButton { label, icon: None, has_words: false, width: 0.0, enabled: true, selected: None, keys: "" }
+        LabButton {
+            label,
+            icon: None,
+            has_words: false,
+            width: 0.0,
+            enabled: true,
+            selected: None,
+            keys: "",
+            spoken: label,
+        }
     }
 
     /// Shows this sign in place of the label, which stays the accessible name.
@@ -63,6 +73,11 @@ impl<'a> LabButton<'a> {
         LabButton { keys, ..self }
     }
 
+    /// Gives it a fuller accessible name, where words beside it say the rest of it.
+    pub fn spoken(self, spoken: &'a str) -> Self {
+        LabButton { spoken, ..self }
+    }
+
     /// Shows the button.
     pub fn show(self, ui: &mut Ui, look: &FrameColours) -> Response {
         let height = ui.spacing().interact_size.y;
@@ -82,11 +97,11 @@ impl<'a> LabButton<'a> {
             button = button.shortcut_text(self.keys);
         }
         let response = ui.add_enabled(self.enabled, button);
-        if self.icon.is_some() || !self.keys.is_empty() {
+        if self.icon.is_some() || !self.keys.is_empty() || self.spoken != self.label {
             // its label alone is its name
             response.widget_info(|| WidgetInfo {
                 selected: self.selected,
-                ..WidgetInfo::labeled(WidgetType::Button, self.enabled, self.label)
+                ..WidgetInfo::labeled(WidgetType::Button, self.enabled, self.spoken)
             });
         }
         if let Some(icon) = self.icon {

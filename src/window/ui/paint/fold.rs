@@ -9,6 +9,12 @@ pub fn fold<R>(ui: &mut Ui, name: &str, is_open: bool, show: impl FnOnce(&mut Ui
     tell(&shown.header_response, shown.body_response.is_some());
 }
 
+/// As [`fold`], at first closed, and open whatever was done as long as it `has_to_be`.
+pub fn unfolding<R>(ui: &mut Ui, name: &str, has_to_be: bool, show: impl FnOnce(&mut Ui) -> R) {
+    let shown = CollapsingHeader::new(name).open(has_to_be.then_some(true)).show(ui, show);
+    tell(&shown.header_response, shown.body_response.is_some());
+}
+
 /// Shows a button that opens a menu of what `show` shows, from its top. What has no room under the button is scrolled
 /// to.
 pub fn menu<R>(ui: &mut Ui, name: &str, show: impl FnOnce(&mut Ui) -> R) {

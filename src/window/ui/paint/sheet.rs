@@ -1,8 +1,8 @@
 //! A sheet: one picture on a paper that the pointer can act on.
 
 use bevy_egui::egui::{
-    Align, Id, Layout, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, WidgetType, pos2,
-    vec2,
+    Align, Id, Layout, Pos2, Rect, Response, Sense, Stroke, StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo, WidgetType,
+    pos2, vec2,
 };
 
 use super::canvas;
@@ -55,6 +55,15 @@ const LEFT: f32 = 140.0;
 /// Width of the panel beside a paper in a low room, at least, points.
 const MIN_BESIDE: f32 = 200.0;
 
+/// Largest share of the width that the chart takes beside the panel.
+const CHART_BESIDE: f32 = 0.5;
+
+/// Side of a chart that is worth its room, at least, points.
+const LEAST_CHART: f32 = 150.0;
+
+/// Width from which on the chart lies beside the panel, points.
+const WIDE: f32 = 600.0;
+
 /// Splits the room into a widget's paper, on which `still` is shown, and the panel beside it, `width` points wide. On a
 /// narrow screen and in a room that is taller than wide the panel is under the paper.
 pub fn split(still: &Picture, room: Rect, look: &FrameColours, width: f32) -> (Rect, Rect) {
@@ -74,6 +83,27 @@ pub fn split(still: &Picture, room: Rect, look: &FrameColours, width: f32) -> (R
     }
     let (paper, rest) = room.split_left_right_at_x(room.right() - width - 20.0);
     (paper, rest.with_min_x(rest.left() + 20.0))
+}
+
+/// Splits the room beside the workspace into that of its chart, where it has one, and that of the panel. `still` is the
+/// chart, once it is known, and `above` the largest share of the height that it takes where it lies above the panel.
+pub fn split_chart(beside: Rect, still: Option<&Picture>, above: f32, look: &FrameColours) -> (Option<Rect>, Rect) {
+    let is_beside = beside.width() >= WIDE;
+    let most = if is_beside {
+        vec2(CHART_BESIDE * beside.width(), beside.height())
+    } else {
+        vec2(beside.width(), above * beside.height())
+    };
+    let square = Rect::from_min_size(beside.min, Vec2::splat(most.min_elem()));
+    let chart = still.map_or(square, |still| canvas::proportioned(still, Rect::from_min_size(beside.min, most)));
+    if look.narrow || look.low || most.min_elem() < LEAST_CHART {
+        return (None, beside);
+    }
+    if is_beside {
+        return (Some(chart), beside.with_min_x(chart.right() + 20.0));
+    }
+    let middle = chart.translate(vec2(0.5 * (beside.width() - chart.width()), 0.0));
+    (Some(middle), beside.with_min_y(chart.bottom() + 8.0))
 }
 
 /// Lays out two columns, the first of them `width` points wide; `add` is called for each.
@@ -113,10 +143,26 @@ fn bar_corner(still: &Picture, paper: Rect, fit: &Fit) -> Pos2 {
     corner + vec2(10.0, -8.0)
 }
 
-/// Shows `still`, which is kept from frame to frame, and `moving` over it.
+/// Shows `still`, which is kept from frame to frame, and `moving` over it, with a scale.
 ///
 /// `spoken` describes both for screen readers.
 pub fn sheet(
+    ui: &mut Ui,
+    paper: Rect,
+    spoken: String,
+    still: &std::sync::Arc<Picture>,
+    moving: &Picture,
+    look: &FrameColours,
+) -> ScreenSheet {
+    let on = unscaled_sheet(ui, paper, spoken, still, moving, look);
+    if still.in_metres {
+        bar_at(ui, &ui.painter_at(paper), bar_corner(still, paper, &on.fit), on.fit.px_per_metre(), look);
+    }
+    on
+}
+
+/// As [`sheet`], for one beside another of the same world: without a scale.
+pub fn unscaled_sheet(
     ui: &mut Ui,
     paper: Rect,
     spoken: String,
@@ -130,9 +176,6 @@ pub fn sheet(
     let painter = ui.painter_at(paper.expand(1.0));
     canvas::paint_cached(&painter, still, paper, &fit, look);
     canvas::paint(&ui.painter_at(paper), moving, &fit, look);
-    if still.in_metres {
-        bar_at(ui, &painter, bar_corner(still, paper, &fit), fit.px_per_metre(), look);
-    }
     let role = if response.has_focus() { Role::Focus } else { Role::Hairline };
     painter.rect_stroke(paper, 0.0, Stroke::new(1.0, look.colour(role)), StrokeKind::Inside);
     ScreenSheet { response, paper, fit }

@@ -2,7 +2,8 @@
 
 use bevy_egui::egui::Ui;
 
-use super::state::{PlanStage, PlanState};
+use super::racer::PlanStage;
+use super::state::PlanState;
 use crate::window::ui::dashboard::doors;
 use crate::window::ui::paint::button::LabButton;
 use crate::window::ui::paint::plate::refusal;
@@ -19,7 +20,7 @@ pub fn what_to_move(
     commands: &mut Vec<Command>,
 ) {
     let is_parted = matches!(plan.stage(), PlanStage::Ended(NoPath::Unreachable { .. }));
-    let Some(work) = plan.work.clone().filter(|_| is_parted) else { return };
+    let Some(work) = plan.racer().work.clone().filter(|_| is_parted) else { return };
     let Some(removal) = work.removal() else {
         let button = LabButton::new("What to move").show(ui, look);
         if button.on_hover_text("The fewest things without which there is a path").clicked() {

@@ -3,7 +3,7 @@
 use bevy_egui::egui::{ComboBox, Ui, WidgetInfo, WidgetType};
 
 use super::paces::PACES;
-use super::state::{PlanStage, PlanState};
+use super::state::PlanState;
 use crate::window::ui::FrameColours;
 use crate::window::ui::keys::TimeAction;
 use crate::window::ui::paint::button::LabButton;
@@ -21,7 +21,7 @@ pub fn act(action: TimeAction, plan: &mut PlanState) {
         TimeAction::PlayPause => play(plan),
         TimeAction::Step => {
             plan.playing = false;
-            plan.tasks_done.extend(goes_on(plan).then_some(HintTask::StepPlanner));
+            plan.tasks_done.extend(plan.goes_on().then_some(HintTask::StepPlanner));
             plan.step();
         }
         TimeAction::Start | TimeAction::Reset => plan.restart(),
@@ -40,19 +40,10 @@ pub fn act(action: TimeAction, plan: &mut PlanState) {
 
 /// Lets the planner go on by itself; one that has ended, or has its path and improves it no more, begins anew.
 fn play(plan: &mut PlanState) {
-    if !goes_on(plan) {
+    if !plan.goes_on() {
         plan.restart();
     }
-    plan.playing = goes_on(plan);
-}
-
-/// Whether another iteration does anything.
-fn goes_on(plan: &PlanState) -> bool {
-    match plan.stage() {
-        PlanStage::Growing => true,
-        PlanStage::Solved => plan.improves(),
-        PlanStage::Ended(_) | PlanStage::Read(..) => false,
-    }
+    plan.playing = plan.goes_on();
 }
 
 /// Width of the choice of pace, points.
@@ -65,7 +56,7 @@ pub fn controls(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState) {
     let buttons = [
         (LabButton::new("Begin anew").icon(Icon::ToStart), TimeAction::Start, "begin anew (Home)"),
         (play.width(PLAY_WIDTH), TimeAction::PlayPause, "grow, or pause (Space)"),
-        (LabButton::new("Step").icon(Icon::Step).enabled(goes_on(plan)), TimeAction::Step, "one iteration (\u{2192})"),
+        (LabButton::new("Step").icon(Icon::Step).enabled(plan.goes_on()), TimeAction::Step, "one iteration (\u{2192})"),
         (LabButton::new("Next seed").icon(Icon::Die), TimeAction::ReRoll, "the next seed (G)"),
     ];
     for (button, action, words) in buttons {

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::panel::goal_for;
-use super::state::{PlanStage, PlanState};
+use super::racer::PlanStage;
+use super::state::PlanState;
 use motion_lab_core::collision::Scene;
 use motion_lab_core::configuration::{AnyConfiguration, Configuration};
 use motion_lab_core::planning::Effort;
@@ -18,27 +19,27 @@ impl PlanState {
     /// The command line that plans this; `None` in a world that no command knows by name, for a file's path, and for a
     /// sensor that lies: the command's is exact.
     pub fn command(&self) -> Option<String> {
-        if matches!(self.stage, PlanStage::Read(..)) || self.is_by_sensor() && self.sensor_lies() {
+        if matches!(self.stage(), PlanStage::Read(..)) || self.is_by_sensor() && self.sensor_lies() {
             return None;
         }
         let (Task { name, start, goal, .. }, world) = (&self.task, self.known_as?);
         let numbers = |q: &AnyConfiguration| q.coordinates().iter().map(f64::to_string).collect::<Vec<_>>().join(",");
-        let (planner, seed) = (self.planner.id(), self.seed);
+        let (planner, seed) = (self.planner().id(), self.seed);
         let ends = format!("--from {} --to {}", numbers(start), numbers(goal));
         Some(format!("motion-lab plan --planner {planner} --robot {name} --world {world} {ends} --seed {seed}"))
     }
 
     /// The planner's path, played in its world by its robot alone; `None` without a path of the planner's own.
     pub fn played(&self) -> Option<(World, Result<PlayedPath, PlayError>)> {
-        let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
+        let work = self.racer().work.as_ref().filter(|_| *self.stage() == PlanStage::Solved)?;
         let (world, played) = work.with(|attempt| self.task.played(attempt, self.seed));
         Some((world, played?))
     }
 
     /// The path as a file, with what the planner has grown; `None` without a path of the planner's own.
     pub fn file(&self) -> Option<PathFile> {
-        let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
-        Some(work.with(|attempt| PathFile::new(self.planner.id(), self.seed.0, &self.task, attempt, true)))
+        let work = self.racer().work.as_ref().filter(|_| *self.stage() == PlanStage::Solved)?;
+        Some(work.with(|attempt| PathFile::new(self.planner().id(), self.seed.0, &self.task, attempt, true)))
     }
 
     /// Shows a plan from a file: in `world` if it has the name that the file names, else in the built-in world of that
@@ -63,15 +64,19 @@ impl PlanState {
         let rejected = judged.as_ref().and_then(|judged| judged.hit.clone());
         let drawn = Drawn { rejected, ..file.drawn(&robot)? };
         self.take(task);
-        (self.work, self.stage) = (None, PlanStage::Read(name.to_owned(), judged));
+        let planner = self.planner();
+        self.race(&[planner], planner);
+        for racer in &mut self.racers {
+            (racer.work, racer.stage) = (None, PlanStage::Read(name.to_owned(), judged.clone()));
+        }
         self.draw(drawn);
         Ok(())
     }
 
     /// Whether there is nothing to lose: no planner has begun, no goal was moved, and no file is shown.
     pub fn is_idle(&self) -> bool {
-        let is_read = matches!(self.stage, PlanStage::Read(..));
-        !self.playing && !self.is_moved && !is_read && self.effort == Effort::default()
+        let is_read = matches!(self.stage(), PlanStage::Read(..));
+        !self.playing && !self.is_moved && !is_read && self.effort() == Effort::default()
     }
 
     /// Shows the plan of a robot of this name in a world, from `start` to `goal`, or to a goal to begin with.
@@ -91,11 +96,11 @@ impl PlanState {
     pub fn captured(&self) -> Captured {
         capture::plan(&PlanSheet {
             task: &self.task,
-            planner: self.planner,
+            planner: self.planner(),
             seed: self.seed,
             drawn: &self.drawn,
-            effort: self.effort,
-            found: match (&self.stage, self.lengths()) {
+            effort: self.effort(),
+            found: match (self.stage(), self.lengths()) {
                 (PlanStage::Read(file, judged), _) => PlanOutcome::File(file, judged.as_ref()),
                 (_, Some(lengths)) => PlanOutcome::Path(lengths),
                 (PlanStage::Ended(_), None) => PlanOutcome::None,

@@ -5,10 +5,13 @@ pub(super) mod controls;
 mod exchange;
 mod paces;
 mod panel;
+mod race;
+mod racer;
 mod state;
 #[cfg(test)]
 mod tests;
 pub(super) mod view;
 mod work;
 
-pub use state::{PlanStage, PlanState};
+pub use racer::PlanStage;
+pub use state::PlanState;

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use bevy_egui::egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo};
 
 use super::blockers::what_to_move;
-use super::state::{PlanStage, PlanState};
+use super::race::{table, who_races};
+use super::racer::PlanStage;
+use super::state::PlanState;
 use crate::window::ui::anatomy::view::{chooser, exact};
 use crate::window::ui::number::{NumberInput, TypedKind};
 use crate::window::ui::paint::button::LabButton;
@@ -16,7 +18,7 @@ use crate::window::ui::{Command, Dashboard, FrameColours, SessionCommand, UiStat
 use motion_lab_core::collision::{Collision, Scene};
 use motion_lab_core::configuration::{AnyConfiguration, Configuration, HitchCfg};
 use motion_lab_core::picture::{Role, in_signs};
-use motion_lab_core::planning::NoPath;
+use motion_lab_core::planning::{Effort, NoPath};
 use motion_lab_core::random::Seed;
 use motion_lab_core::robots::{AnyRobot, Robot};
 use motion_lab_core::worlds::World;
@@ -38,7 +40,7 @@ const MAX_RESIDENTS: usize = 20;
 pub fn panel(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
     choices(ui, model, state);
     ui.add_space(4.0);
-    outcome(ui, look, &state.plan);
+    outcome(ui, look, &mut state.plan);
     ui.add_space(4.0);
     path_buttons(ui, model, look, &mut state.plan, commands);
     ui.add_space(4.0);
@@ -50,6 +52,7 @@ pub fn choices(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
     task_choice(ui, model, state);
     let plan = &mut state.plan;
     planner_choice(ui, plan);
+    who_races(ui, plan);
     if let AnyRobot::Rusty(_) = plan.task().robot {
         let words = format!("Its radius has {TUBE} m to spare: played, it keeps within that of its path.");
         ui.label(RichText::new(words).small());
@@ -59,7 +62,8 @@ pub fn choices(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
 }
 
 /// Shows what came of it.
-pub fn outcome(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
+pub fn outcome(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState) {
+    table(ui, look, plan);
     result(ui, look, plan);
     leave_points(ui, plan);
 }
@@ -219,11 +223,17 @@ fn seed(ui: &mut Ui, plan: &mut PlanState) {
 fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
     let effort = plan.effort();
     let monospace = |text: String| RichText::new(text).monospace();
-    if !matches!(plan.stage(), PlanStage::Read(..)) {
-        // numbers stay with their words, however narrow the column
-        let mut row = |words: String| ui.add(Label::new(monospace(words)).extend());
-        row(format!("{:>5} iterations {:>5} samples", effort.iterations, effort.samples));
-        row(format!("{:>5} edges asked {:>5} free", effort.edges, effort.free));
+    // the table of a race has them
+    if !matches!(plan.stage(), PlanStage::Read(..)) && !plan.is_race() {
+        let rows = [
+            format!("{:>5} iterations {:>5} samples", effort.iterations, effort.samples),
+            format!("{:>5} edges asked {:>5} free", effort.edges, effort.free),
+        ];
+        // numbers stay with their words, however narrow the column; nothing is counted before it begins
+        let has_begun = effort != Effort::default();
+        rows.into_iter().for_each(|row| {
+            ui.add_visible(has_begun, Label::new(monospace(row)).extend());
+        });
     }
     match plan.stage() {
         PlanStage::Growing if effort.iterations == 0 => {}
@@ -240,7 +250,7 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
                     }
                 }
             }
-            if plan.improves() {
+            if plan.racer().improves() {
                 ui.label("Play on, and it improves its path.");
             }
         }

@@ -5,18 +5,16 @@ use std::sync::Arc;
 use bevy::platform::time::Instant;
 
 use super::paces::{PACES, SHOWS_REJECTED};
-use super::work::PlannerWork;
+use super::racer::{PlanStage, Racer};
 use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::picture::{Item, Picture, world as picture_of};
-use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
+use motion_lab_core::planning::Effort;
 use motion_lab_core::random::Seed;
 use motion_lab_sim::capture::judged_words;
 use motion_lab_sim::lens::SpaceCells;
 use motion_lab_sim::manifest::HintTask;
-use motion_lab_sim::plans::{
-    Bug1Walk, Drawn, JudgedPath, PathLengths, PlannerName, Planners, Task, space_items, workspace_items,
-};
+use motion_lab_sim::plans::{Bug1Walk, Drawn, PathLengths, PlannerName, Planners, Task, space_items, workspace_items};
 use motion_lab_sim::run::Event;
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
@@ -26,37 +24,23 @@ const FINEST: u32 = 7;
 /// Largest part of a frame spent on iterations, seconds.
 const BUDGET: f64 = 0.008;
 
-/// How far the planner has come.
-#[derive(Clone, Debug, PartialEq)]
-pub enum PlanStage {
-    /// It has not begun, or has no path yet.
-    Growing,
-    Solved,
-    /// There is no path, for this reason.
-    Ended(NoPath),
-    /// The path is a file's, of this name, with what the exact scene says of it; nothing where nothing was judged.
-    Read(String, Option<JudgedPath>),
-}
-
 /// The state of the widget that plans.
 #[derive(Clone, Debug)]
 pub struct PlanState {
     pub(super) task: Task,
-    pub(super) planner: PlannerName,
+    /// The planners at work on the task, in the order in which they came; never none.
+    pub(super) racers: Vec<Racer>,
+    /// The number of the one in front: what it grows is drawn, and its path is what can be played and saved.
+    pub(super) front: usize,
     /// The planners to choose from.
     pub planners: Planners,
     pub(super) seed: Seed,
-    pub(super) work: Option<PlannerWork>,
-    pub(super) stage: PlanStage,
     /// Whether it goes on by itself.
     pub playing: bool,
     /// The number of its pace among [`PACES`].
     pub pace: usize,
-    /// The greatest number of iterations.
-    pub(super) bound: u64,
     /// The iterations that are due: less than one after a frame.
     due: f64,
-    pub(super) effort: Effort,
     pub(super) drawn: Drawn,
     /// The name by which commands know the world, if they do.
     pub(super) known_as: Option<&'static str>,
@@ -89,18 +73,16 @@ impl PlanState {
     /// A task, with the planner that suits its robot.
     pub fn of(task: Task) -> Self {
         let drawn = nothing(&task);
+        let racer = Racer::new(PlannerName::default_for(&task.robot), &task, BOOK_SEED);
         let mut state = PlanState {
             known_as: task.world.built_in_name(),
-            planner: PlannerName::default_for(&task.robot),
+            racers: vec![racer],
+            front: 0,
             planners: Planners::default(),
             seed: BOOK_SEED,
-            work: None,
-            stage: PlanStage::Growing,
             playing: false,
             pace: 3,
-            bound: 0,
             due: 0.0,
-            effort: Effort::default(),
             drawn,
             backdrop: Arc::new(picture_of(&task.world)),
             over: Arc::new(Picture::new("plan", task.world.bounds)),
@@ -113,7 +95,7 @@ impl PlanState {
             tasks_done: Vec::new(),
             task,
         };
-        state.restart();
+        state.look();
         state
     }
 
@@ -122,15 +104,20 @@ impl PlanState {
         *self = PlanState { planners: std::mem::take(&mut self.planners), ..Self::default() };
     }
 
-    /// Another task. The planner stays if it suits the robot, pace and seed stay.
+    /// Another task. The planners that suit the robot stay, pace and seed stay.
     pub fn take(&mut self, task: Task) {
-        let planner = if self.planner.suits(&task.robot).is_ok() { Some(self.planner) } else { None };
+        let front = self.planner();
+        let suits = |planner: &PlannerName| planner.suits(&task.robot).is_ok();
+        let planners: Vec<PlannerName> = self.racing().filter(suits).collect();
         let (seed, pace, over_drive, played) = (self.seed, self.pace, self.over_drive, self.played.take());
-        let planners = std::mem::take(&mut self.planners);
+        let known = std::mem::take(&mut self.planners);
         let task = Task { noise: self.task.noise, ..task };
-        *self = PlanState { seed, pace, over_drive, played, planners, ..Self::of(task) };
-        self.planner = planner.unwrap_or(self.planner);
-        self.restart();
+        *self = PlanState { seed, pace, over_drive, played, planners: known, ..Self::of(task) };
+        if !planners.is_empty() {
+            self.race(&planners, front);
+        } else {
+            self.restart();
+        }
     }
 
     /// The task.
@@ -143,20 +130,27 @@ impl PlanState {
         self.known_as.is_some()
     }
 
-    /// The planner.
-    pub fn planner(&self) -> PlannerName {
-        self.planner
+    /// The planner in front, with its work.
+    pub(super) fn racer(&self) -> &Racer {
+        &self.racers[self.front]
     }
 
-    /// Chooses another planner, which begins anew.
+    /// The planner in front.
+    pub fn planner(&self) -> PlannerName {
+        self.racer().planner
+    }
+
+    /// Chooses another planner in place of the one in front. All begin anew.
     pub fn set_planner(&mut self, planner: PlannerName) {
-        self.planner = planner;
-        self.restart();
+        let others = self.racing().enumerate().filter(|(i, other)| *i == self.front || *other != planner);
+        let planners: Vec<PlannerName> =
+            others.map(|(i, other)| if i == self.front { planner } else { other }).collect();
+        self.race(&planners, planner);
     }
 
     /// Whether the planner's robot walks by a range sensor, which may lie.
     pub fn is_by_sensor(&self) -> bool {
-        self.planner == PlannerName::Bug1Sensor
+        self.planner() == PlannerName::Bug1Sensor
     }
 
     /// Whether the sensor lies: it is a cheap one with noise, not an exact one.
@@ -196,15 +190,15 @@ impl PlanState {
         if end == 0 { self.task.start } else { self.task.goal }
     }
 
-    /// Whether its planner goes on to improve a path that it has.
-    pub fn improves(&self) -> bool {
-        self.planner.improves() && self.effort.iterations < self.bound
+    /// Whether another iteration does anything.
+    pub fn goes_on(&self) -> bool {
+        self.racers.iter().any(Racer::goes_on)
     }
 
     /// The plan in a sentence, for readers who do not see it.
     pub fn described(&self) -> String {
         let Task { name, start, goal, .. } = &self.task;
-        let found = match &self.stage {
+        let found = match self.stage() {
             PlanStage::Growing => format!("{} edges so far", self.drawn.edges.len()),
             PlanStage::Solved => format!("a path of {}", self.drawn.legs()),
             PlanStage::Ended(reason) => reason.to_string(),
@@ -215,17 +209,17 @@ impl PlanState {
         };
         let left = self.drawn.sensed.iter().flat_map(|sensed| &sensed.leave_points).enumerate();
         let left: String = left.map(|(i, point)| format!("; round {}: {point}", i + 1)).collect();
-        format!("{} for {name}, from {start} to {goal}: {found}{left}", self.planner.title())
+        format!("{} for {name}, from {start} to {goal}: {found}{left}", self.planner().title())
     }
 
-    /// How far the planner has come.
+    /// How far the planner in front has come.
     pub fn stage(&self) -> &PlanStage {
-        &self.stage
+        &self.racer().stage
     }
 
-    /// What the planner has done.
+    /// What the planner in front has done.
     pub fn effort(&self) -> Effort {
-        self.effort
+        self.racer().effort()
     }
 
     /// What there is to draw.
@@ -235,13 +229,12 @@ impl PlanState {
 
     /// The length and the clearance of the planner's own path, if it has one.
     pub fn lengths(&self) -> Option<PathLengths> {
-        let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
-        Some(work.with(|attempt| attempt.lengths()))
+        self.racer().lengths()
     }
 
     /// A length that no path undercuts, metres, where it is known.
     pub fn length_bound(&self) -> Option<f64> {
-        self.work.as_ref()?.length_bound(&self.task)
+        self.racer().work.as_ref()?.length_bound(&self.task)
     }
 
     /// The picture of the world alone.
@@ -253,44 +246,30 @@ impl PlanState {
     pub fn restart(&mut self) {
         self.playing = false;
         self.due = 0.0;
-        self.bound = self.planner.iterations();
-        (self.work, self.stage) = match self.task.attempt(self.planner, self.seed) {
-            Ok(attempt) => (Some(PlannerWork::new(attempt)), PlanStage::Growing),
-            Err(reason) => (None, PlanStage::Ended(reason)),
-        };
+        for racer in &mut self.racers {
+            *racer = Racer::new(racer.planner, &self.task, self.seed);
+        }
         self.look();
     }
 
     /// Does one iteration; nothing where no planner is at work, as for a file's path.
     pub fn step(&mut self) {
-        if self.work.is_none() {
-            return;
+        if self.racers.iter().any(|racer| racer.work.is_some()) {
+            self.step_unseen();
+            self.look();
         }
-        self.step_unseen();
-        self.look();
     }
 
-    /// Does one iteration without looking at what came of it. What ends the planner, or is its first path, ends its
-    /// going on by itself.
+    /// Does one iteration of each planner without a path, or where all have one, of each that improves its own; looks
+    /// not at what came of it. Once the last has its first path, or none goes on, they no longer go on by themselves.
     fn step_unseen(&mut self) {
-        let Some(work) = &self.work else { return };
-        if matches!(self.stage, PlanStage::Ended(_)) {
+        if !self.goes_on() {
             return self.playing = false;
         }
         self.tasks_done.extend(std::mem::take(&mut self.is_moved).then_some(HintTask::MoveGoal));
-        let effort = work.with(|attempt| attempt.effort());
-        let next = if effort.iterations >= self.bound {
-            let exhausted = NoPath::Exhausted { bound: Bound::Iterations, effort };
-            if self.stage == PlanStage::Solved { PlanStage::Solved } else { PlanStage::Ended(exhausted) }
-        } else {
-            match work.with(|attempt| attempt.step()) {
-                Progress::Growing => return,
-                Progress::Solved if self.stage == PlanStage::Solved && self.improves() => return,
-                Progress::Solved => PlanStage::Solved,
-                Progress::Ended(reason) => PlanStage::Ended(reason),
-            }
-        };
-        (self.stage, self.playing) = (next, false);
+        let grow = self.racers.iter().any(Racer::grows);
+        self.racers.iter_mut().filter(|racer| racer.grows() == grow).for_each(Racer::step);
+        self.playing &= if grow { self.racers.iter().any(Racer::grows) } else { self.goes_on() };
     }
 
     /// Goes on by itself for a frame that took `seconds`.
@@ -356,19 +335,21 @@ impl PlanState {
         Some((cells, more))
     }
 
-    /// Updates the effort and the drawing from what the planner has grown so far. At fast paces what was rejected is
-    /// not drawn.
-    fn look(&mut self) {
-        let (effort, mut drawn) = match &self.work {
-            Some(work) => work.with(|attempt| (attempt.effort(), attempt.drawn())),
-            None => (Effort::default(), nothing(&self.task)),
+    /// Updates the drawing from what the planner in front has grown so far, and the others' paths. At fast paces what
+    /// was rejected is not drawn.
+    pub(super) fn look(&mut self) {
+        let mut drawn = match &self.racer().work {
+            Some(work) => work.with(|attempt| attempt.drawn()),
+            None => nothing(&self.task),
         };
+        let is_rival = |(i, racer): &(usize, &Racer)| *i != self.front && racer.stage == PlanStage::Solved;
+        let rivals = self.racers.iter().enumerate().filter(is_rival).filter_map(|(_, racer)| racer.work.as_ref());
+        drawn.rivals = rivals.map(|work| work.with(|attempt| attempt.drawn().path)).collect();
         if self.playing && PACES[self.pace.min(PACES.len() - 1)].0 > SHOWS_REJECTED {
             drawn.rejected = None;
         }
         // a disc has no heading: the ends keep the robot's own
         drawn.ends = [self.task.start, self.task.goal];
-        self.effort = effort;
         self.draw(drawn);
     }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::PlanState;
 use super::paces::PACES;
-use super::state::PlanStage;
+use super::racer::PlanStage;
 use motion_lab_core::collision::Collision;
 use motion_lab_core::configuration::{AnyConfiguration, T2};
 use motion_lab_core::cspace::CellState;
@@ -49,7 +49,7 @@ fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
         plan.step();
     }
     let (first, iterations) = (plan.lengths().unwrap().length, plan.effort().iterations);
-    assert!(plan.improves());
+    assert!(plan.racer().improves());
     (0..300).for_each(|_| plan.step());
     let better = plan.lengths().unwrap().length;
     assert_eq!(plan.effort().iterations, iterations + 300);
@@ -58,20 +58,20 @@ fn rrt_star_goes_on_to_improve_its_path_and_others_stop_at_theirs() {
     while *plan.stage() == PlanStage::Growing {
         plan.step();
     }
-    assert!(plan.improves());
+    assert!(plan.racer().improves());
     plan.set_planner(PlannerName::RrtConnect);
     while *plan.stage() == PlanStage::Growing {
         plan.step();
     }
-    assert!(!plan.improves() && *plan.stage() == PlanStage::Solved);
+    assert!(!plan.racer().improves() && *plan.stage() == PlanStage::Solved);
 }
 
 #[test]
 fn a_planner_ends_at_its_bound_with_the_path_that_it_has_or_with_the_reason() {
     let mut plan = PlanState::default();
-    assert_eq!(plan.bound, 100_000);
+    assert_eq!(plan.racers[0].bound, 100_000);
     plan.set_planner(PlannerName::Dijkstra);
-    plan.bound = 40;
+    plan.racers[0].bound = 40;
     (0..60).for_each(|_| plan.step());
     assert_eq!(plan.effort().iterations, 40);
     let PlanStage::Ended(reason) = plan.stage() else { panic!("{:?}", plan.stage()) };
@@ -80,9 +80,13 @@ fn a_planner_ends_at_its_bound_with_the_path_that_it_has_or_with_the_reason() {
     while *plan.stage() == PlanStage::Growing {
         plan.step();
     }
-    plan.bound = plan.effort().iterations + 5;
+    plan.racers[0].bound = plan.effort().iterations + 5;
     (0..20).for_each(|_| plan.step());
-    assert!(*plan.stage() == PlanStage::Solved && plan.effort().iterations == plan.bound && !plan.improves());
+    assert!(
+        *plan.stage() == PlanStage::Solved
+            && plan.effort().iterations == plan.racers[0].bound
+            && !plan.racer().improves()
+    );
 }
 
 #[test]
@@ -297,4 +301,61 @@ fn an_arm_of_two_links_has_a_bound_and_one_of_three_none_in_the_window() {
         [[2.0, 0.0, 0.0], [2.1, 0.0, 0.0]].map(|q| AnyRobot::of_kind("reach3", &q).unwrap());
     let plan = PlanState::of(Task::new("Reach3", robot, World::workbench(), [start, goal]));
     assert_eq!(plan.length_bound(), None);
+}
+
+/// The default task with these planners, the first of them in front.
+fn race_of(planners: &[PlannerName]) -> PlanState {
+    let mut plan = PlanState::default();
+    plan.race(planners, planners[0]);
+    plan
+}
+
+#[test]
+fn planners_race_as_each_would_go_alone_until_the_last_has_its_path() {
+    let names = [PlannerName::RrtConnect, PlannerName::Rrt, PlannerName::RrtStar];
+    let alone = names.map(|name| {
+        let mut plan = race_of(&[name]);
+        while *plan.stage() == PlanStage::Growing {
+            plan.step();
+        }
+        (plan.effort(), plan.lengths(), plan.drawn().path.clone())
+    });
+    let mut race = race_of(&names);
+    (race.playing, race.pace) = (true, PACES.len() - 1);
+    while race.playing {
+        race.play(1.0);
+    }
+    let iterations: Vec<u64> = race.racers.iter().map(|racer| racer.effort().iterations).collect();
+    let [connect, rrt, star] = alone.clone().map(|(effort, ..)| effort.iterations);
+    assert_eq!(iterations, [connect, rrt, star], "who has a path waits for the others");
+    for (i, (effort, lengths, path)) in alone.iter().enumerate() {
+        race.bring(i);
+        assert_eq!((race.planner(), race.effort(), race.lengths()), (names[i], *effort, *lengths));
+        assert_eq!(race.drawn().path, *path);
+        let others = alone.iter().enumerate().filter(|(other, _)| *other != i).map(|(_, (.., path))| path.clone());
+        assert_eq!(race.drawn().rivals, others.collect::<Vec<_>>(), "the others' paths stay in sight");
+    }
+    // played on, only the one that improves its path does anything
+    race.step();
+    let after: Vec<u64> = race.racers.iter().map(|racer| racer.effort().iterations).collect();
+    assert_eq!(after, [connect, rrt, star + 1]);
+    race.move_end(1, race.end_at(0).with(0, 3.0));
+    assert!(race.racers.iter().all(|racer| racer.grows() && racer.effort().iterations == 0), "all begin anew");
+}
+
+#[test]
+fn a_race_has_each_planner_once_and_those_alone_that_suit_the_robot() {
+    let [connect, rrt, prm] = [PlannerName::RrtConnect, PlannerName::Rrt, PlannerName::Prm];
+    let mut plan = race_of(&[connect, rrt, prm, PlannerName::RrtStar]);
+    assert_eq!(plan.racing().collect::<Vec<_>>(), [connect, rrt, prm], "three at most");
+    plan.bring(1);
+    plan.set_planner(prm);
+    assert_eq!((plan.racing().collect::<Vec<_>>(), plan.planner()), (vec![connect, prm], prm));
+    plan.bring(7);
+    assert_eq!(plan.planner(), prm, "there is no eighth");
+    // a planner of an arm plans for no car
+    plan.race(&[PlannerName::CellDecomposition, prm], prm);
+    let (car, start) = AnyRobot::of_resident(&World::lot().robots[0]).expect("the lab's");
+    plan.take(Task::new("Hitch", car, World::lot(), [start, start.with(0, 8.0)]));
+    assert_eq!(plan.racing().collect::<Vec<_>>(), [PlannerName::CellDecomposition]);
 }

@@ -9,7 +9,6 @@ use super::panel::{choices, ends, outcome, panel, path_buttons};
 use super::state::PlanState;
 use crate::window::ui::keys::SessionAction;
 use crate::window::ui::paint::canvas::{self, MARGIN};
-use crate::window::ui::paint::frame::next_hint;
 use crate::window::ui::paint::sheet::{ScreenSheet, sheet, two_columns};
 use crate::window::ui::{Command, Dashboard, FrameColours, Notice, SessionCommand, UiState};
 use motion_lab_core::configuration::Configuration;
@@ -93,13 +92,13 @@ pub fn plan_view(
     }
     let seen = left.union(right.with_max_y(right.bottom() + line));
     if narrow {
-        ui.scope_builder(UiBuilder::new().max_rect(beside.with_min_y(beside.top() + 6.0)), |ui| {
+        let under = if look.low { seen.bottom() } else { beside.top() } + 6.0;
+        ui.scope_builder(UiBuilder::new().max_rect(beside.with_min_y(under)), |ui| {
             ScrollArea::vertical().id_salt("plan").auto_shrink(false).show(ui, |ui| {
                 if look.low {
                     crate::window::ui::menu::head(ui, words, model, look, state, commands);
                 }
                 ui.horizontal_wrapped(|ui| controls(ui, look, &mut state.plan));
-                next_hint(ui, words, look, state);
                 panel(ui, model, look, state, commands);
                 crate::window::ui::menu::foot(ui, words, look, state);
             });
@@ -114,7 +113,7 @@ pub fn plan_view(
                 let scroll = ScrollArea::vertical().id_salt("outcome").auto_shrink(false);
                 scroll.show(ui, |ui| {
                     two_columns(ui, 0.5 * (under.width() - 20.0), |ui, i| match i {
-                        0 => outcome(ui, look, &state.plan),
+                        0 => outcome(ui, look, &mut state.plan),
                         _ => path_buttons(ui, model, look, &mut state.plan, commands),
                     });
                 });

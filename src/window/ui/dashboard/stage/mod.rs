@@ -35,7 +35,7 @@ const SHARE_OF_SMALL: f32 = 0.3;
 const FOOT: f32 = 3.0;
 
 /// Height kept free for the words under the pictures of a narrow screen, where they scroll, points.
-const NARROW_WORDS: f32 = 120.0;
+const NARROW_WORDS: f32 = 104.0;
 
 /// Width of the menu beside the tabs, points.
 const MENU: f32 = 70.0;
@@ -343,7 +343,9 @@ pub fn header(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut U
         ui.add_space((ui.available_size_before_wrap().x - MENU).max(0.0));
         menu::menu_button(ui, model, look, state, commands);
     });
-    frame::lesson(ui, look, state);
+    if look.low {
+        frame::sentence_in_rows(ui, model, look, state);
+    }
 }
 
 /// Shows tabs to choose the cockpit in front. The robot in hand, which would keep its own there, is let go.

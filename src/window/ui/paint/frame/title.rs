@@ -9,13 +9,7 @@ use crate::window::ui::{FrameColours, UiState};
 use motion_lab_core::picture::Role;
 use motion_lab_sim::manifest::{Widget, WidgetText};
 
-/// Shows title and misconception. They do not fade when a role is lit.
-pub fn title(ui: &mut Ui, widget: &WidgetText, look: &FrameColours) {
-    name(ui, widget, look);
-    misconception(ui, widget, look);
-}
-
-/// Shows the title alone.
+/// Shows the title. It does not fade when a role is lit.
 pub fn name(ui: &mut Ui, widget: &WidgetText, look: &FrameColours) {
     let heading =
         ui.label(RichText::new(&widget.title).text_style(TextStyle::Heading).color(look.theme.colour(Role::Text)));
