@@ -51,6 +51,7 @@ fn a_prompt_shows_its_scene_once_it_is_answered() {
     }
     // in Space the arms that reach a tip are counted
     click(&mut harness, "Space");
+    click(&mut harness, "Guess first");
     guess(&mut harness, "2 m from the base", "2");
     harness.get_by_label_contains("Off by +1: it is 1. On the circle around the annulus the arm is straight");
     click(&mut harness, "Next question");

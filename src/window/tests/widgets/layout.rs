@@ -178,7 +178,8 @@ fn numbers_of_the_space_stay_with_their_names() {
         let last = harness.get_by_label("as a torus").rect();
         assert!(last.bottom() <= size[1], "the last row ends in the window of {size:?}: {last}");
     }
-    let harness = fresh(WIDE, Widget::Cspace);
+    let mut harness = fresh(WIDE, Widget::Cspace);
+    click(&mut harness, "Guess first");
     let field = harness.get_by_label("length of link 1").rect();
     let is_named =
         |(text, ink, _): &(String, egui::Rect, egui::Rect)| text.starts_with("L1") && field.contains_rect(*ink);

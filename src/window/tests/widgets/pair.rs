@@ -26,7 +26,7 @@ fn drag_between(harness: &mut Harness<'_, Lab>, from: Pos2, to: Pos2) {
 
 #[test]
 fn the_point_beside_the_questions_is_the_robot_that_is_asked_about() {
-    for size in [WIDE, TABLET] {
+    for size in [WIDE, TABLET, [600.0, 500.0]] {
         let mut harness = lab(size);
         click(&mut harness, "Query");
         click(&mut harness, "distance");

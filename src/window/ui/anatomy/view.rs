@@ -57,7 +57,7 @@ pub fn anatomy_view(
     let before = state.anatomy.anatomy.clone();
     let room = ui.available_rect_before_wrap();
     let (paper, beside) = split(&state.anatomy.backdrop, room, look, SIDE);
-    let (space, beside) = split_chart(beside, state.cspace.still(&state.anatomy.anatomy), ABOVE, look);
+    let (space, beside) = split_chart(paper, beside, state.cspace.still(&state.anatomy.anatomy), ABOVE, look);
     let shown = &state.anatomy;
     let (backdrop, overlay) = (Arc::clone(&shown.backdrop), shown.anatomy.overlay());
     let spoken = shown.anatomy.described();

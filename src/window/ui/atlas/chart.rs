@@ -21,13 +21,13 @@ impl AtlasState {
 const ABOVE: f32 = 0.32;
 
 /// Splits the room beside the world into that of the chart and that of the panel, and judges more of the chart.
-pub fn split(ui: &Ui, beside: Rect, look: &FrameColours, atlas: &mut AtlasState) -> (Option<Rect>, Rect) {
+pub fn split(ui: &Ui, [paper, beside]: [Rect; 2], look: &FrameColours, atlas: &mut AtlasState) -> (Option<Rect>, Rect) {
     atlas.space = AtlasSpace::of(atlas.space.take(), atlas.shown(), atlas.robot, &atlas.still);
     let Some(more) = atlas.space.as_mut().map(AtlasSpace::refine) else { return (None, beside) };
     if more {
         ui.ctx().request_repaint();
     }
-    split_chart(beside, atlas.space().map(|space| &**space.cells().picture()), ABOVE, look)
+    split_chart(paper, beside, atlas.space().map(|space| &**space.cells().picture()), ABOVE, look)
 }
 
 /// Shows the chart. Where a click puts robots, the point can be dragged: the robot goes there when

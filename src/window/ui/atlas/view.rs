@@ -44,7 +44,7 @@ pub fn atlas_view(
     let room = ui.available_rect_before_wrap();
     let still = state.atlas.still();
     let (paper, beside) = split(&still, room, look, SIDE);
-    let (space, beside) = chart::split(ui, beside, look, &mut state.atlas);
+    let (space, beside) = chart::split(ui, [paper, beside], look, &mut state.atlas);
     let fit = crate::window::ui::paint::canvas::fit(&still, paper);
     let mut moving = state.atlas.over();
     if state.settings.labels {

@@ -71,8 +71,8 @@ pub fn cspace_view(
                     readouts(ui, look, state);
                 } else {
                     ui.set_max_width(width);
-                    prompts(ui, PromptSeries::Tips, state);
                     PutInRun::of_query(&state.anatomy.anatomy).show(ui, model, look, commands);
+                    fold(ui, "Guess first", false, |ui| prompts(ui, PromptSeries::Tips, state));
                 }
             });
             choices(ui, state);

@@ -86,8 +86,21 @@ pub fn split(still: &Picture, room: Rect, look: &FrameColours, width: f32) -> (R
 }
 
 /// Splits the room beside the workspace into that of its chart, where it has one, and that of the panel. `still` is the
-/// chart, once it is known, and `above` the largest share of the height that it takes where it lies above the panel.
-pub fn split_chart(beside: Rect, still: Option<&Picture>, above: f32, look: &FrameColours) -> (Option<Rect>, Rect) {
+/// chart, once it is known, and `above` the largest share of the height that it takes where it lies above the panel. In
+/// a low room it lies under the workspace, whose `paper` leaves room there.
+pub fn split_chart(
+    paper: Rect,
+    beside: Rect,
+    still: Option<&Picture>,
+    above: f32,
+    look: &FrameColours,
+) -> (Option<Rect>, Rect) {
+    if look.low {
+        let under = Rect::from_min_max(paper.left_bottom() + vec2(0.0, 8.0), pos2(paper.right(), beside.bottom()));
+        let square = Rect::from_min_size(under.min, Vec2::splat(under.size().min_elem()));
+        let chart = still.map_or(square, |still| canvas::proportioned(still, under));
+        return (Some(chart).filter(|_| under.height() >= LEAST_CHART), beside);
+    }
     let is_beside = beside.width() >= WIDE;
     let most = if is_beside {
         vec2(CHART_BESIDE * beside.width(), beside.height())
@@ -96,7 +109,7 @@ pub fn split_chart(beside: Rect, still: Option<&Picture>, above: f32, look: &Fra
     };
     let square = Rect::from_min_size(beside.min, Vec2::splat(most.min_elem()));
     let chart = still.map_or(square, |still| canvas::proportioned(still, Rect::from_min_size(beside.min, most)));
-    if look.narrow || look.low || most.min_elem() < LEAST_CHART {
+    if look.narrow || most.min_elem() < LEAST_CHART {
         return (None, beside);
     }
     if is_beside {

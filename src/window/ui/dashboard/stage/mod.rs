@@ -43,6 +43,9 @@ const MENU: f32 = 70.0;
 /// Least width for the words beside the cockpit in front in a low room, points.
 const MIN_WORDS: f32 = 170.0;
 
+/// Least height for the configuration under the cockpit in front in a low room, points.
+const LEAST_UNDER: f32 = 120.0;
+
 /// Width of the window from which three equal panes are offered, points.
 const ROOMY: f32 = 1600.0;
 
@@ -188,12 +191,19 @@ impl Stage<'_> {
         response.clicked()
     }
 
-    /// Shows one cockpit in a low room: its world as high as the room, and its words at the right of it.
+    /// Shows one cockpit in a low room: its world as high as the room, under it, where there is room, its configuration,
+    /// and its words at the right of both.
     fn lying(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let Some((_, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
         let sheet = canvas::proportioned(&cockpit.world, room.with_max_x(room.right() - MIN_WORDS - 12.0));
-        let fit = pane::paper(ui, cockpit, sheet, Vec::new(), self.look, state, commands);
+        let under = Rect::from_min_max(sheet.left_bottom() + vec2(0.0, 6.0), pos2(sheet.right(), room.bottom()));
+        let linked = self.linked(cockpit, state).filter(|_| under.height() >= LEAST_UNDER);
+        let way = linked.as_ref().map_or_else(Vec::new, Linked::way);
+        let fit = pane::paper(ui, cockpit, sheet, way, self.look, state, commands);
+        if let Some(linked) = linked {
+            linked.show(ui, under, self.look, &mut state.linked, commands);
+        }
         let beside = room.with_min_x(sheet.right() + 12.0);
         let mut ui = ui.new_child(UiBuilder::new().max_rect(beside).layout(Layout::top_down(Align::Min)));
         header(&mut ui, self.model, self.look, state, commands);
