@@ -1,5 +1,6 @@
 //! Planning in the window, behaviour by behaviour.
 
+mod race;
 mod removal;
 
 use super::*;
