@@ -254,6 +254,10 @@ impl Anatomy {
     /// Drags the robot's reference point. An arm's tip moves by inverse kinematics on its elbow side, clamped to the
     /// annulus; a straight or folded arm keeps the side it had. Other robots move without turning.
     pub fn drag(&mut self, to: Point2) {
+        // an arm's base stays where it is; what moves about stays in its world
+        let Aabb { min, max } = self.world.bounds;
+        let within = Point2::new(to.x.clamp(min.x, max.x), to.y.clamp(min.y, max.y));
+        let to = if self.q.is_angle(0) { to } else { within };
         self.set(self.checker.robot().dragged(&self.q, to, self.elbow_down));
     }
 
@@ -341,5 +345,29 @@ fn elbow(q: &AnyConfiguration) -> Option<f64> {
         AnyConfiguration::T2(q) => Some(q.th2()),
         AnyConfiguration::T3(q) => Some(q.0[2]),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use motion_lab_core::robots::{HITCH, RUSTY};
+
+    #[test]
+    fn what_is_dragged_beyond_its_world_stays_at_its_edge() {
+        for robot in [AnyRobot::Rusty(RUSTY), AnyRobot::Hitch(HITCH)] {
+            let mut anatomy = Anatomy::default().at_home(robot);
+            let Aabb { min, max } = anatomy.world().bounds;
+            for (to, edge) in [([max.x + 1.0, 3.0], [max.x, 3.0]), ([4.0, min.y - 2.0], [4.0, min.y])] {
+                anatomy.drag(Point2::from(to));
+                let [x, y] = [0, 1].map(|i| anatomy.q().coordinates()[i]);
+                assert!((Point2::new(x, y) - Point2::from(edge)).norm() < 1e-9, "{x} {y}");
+            }
+        }
+        // an arm's tip is drawn out as far as it goes, wherever the pointer is: along the x axis it is straight
+        let mut arm = Anatomy::default();
+        arm.drag(Point2::new(50.0, 0.0));
+        let q = arm.q().coordinates();
+        assert!(q[0].abs() < 1e-6 && q[1].abs() < 1e-6, "{q:?}");
     }
 }

@@ -25,7 +25,7 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
     let [start, goal] = drawn.ends;
     items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Goal, 0.4));
     items.extend(faced("start", "the start", robot, &start));
-    items.extend(rivals(drawn.rivals.iter().map(way).collect()));
+    items.extend(rivals(drawn.rivals.iter().map(|path| vec![way(path)])));
     if !drawn.path.is_empty() {
         items.push(path(vec![way(&drawn.path)]));
     }
@@ -144,7 +144,7 @@ pub fn space_items(slice: &Slice, drawn: &Drawn) -> Vec<Item> {
     let lines = |motion: &Vec<AnyConfiguration>| lines_through(slice, motion).unwrap_or_default();
     let mut items: Vec<Item> = drawn.barrier.iter().map(|barrier| barrier_in(slice, barrier)).collect();
     items.push(growth(drawn.edges.iter().flat_map(lines).collect()));
-    items.extend(rivals(drawn.rivals.iter().flat_map(lines).collect()));
+    items.extend(rivals(drawn.rivals.iter().map(lines)));
     if !drawn.path.is_empty() {
         items.push(path(lines(&drawn.path)));
     }
@@ -175,11 +175,14 @@ fn path(lines: Vec<Vec<Point2>>) -> Item {
     Item::new("path", "the path", Role::Path, drawing).stroked(Line::solid(2.5))
 }
 
-fn rivals(lines: Vec<Vec<Point2>>) -> Option<Item> {
-    let is_there = !lines.is_empty();
-    let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
-    let line = Line::solid(1.5).dashed(Dash::Dashed).at_opacity(0.7);
-    is_there.then(|| Item::new("rivals", "paths of the other planners", Role::Path, drawing).stroked(line))
+/// The paths of the other planners of a race: the first dashed, the others dotted.
+fn rivals(ways: impl Iterator<Item = Vec<Vec<Point2>>>) -> Vec<Item> {
+    let item = |(i, lines): (usize, Vec<Vec<Point2>>)| {
+        let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+        let line = Line::solid(1.8).dashed(if i == 0 { Dash::Dashed } else { Dash::Dotted });
+        Item::new(format!("rival/{i}"), "the path of another planner", Role::Path, drawing).stroked(line)
+    };
+    ways.enumerate().map(item).collect()
 }
 
 fn refused(lines: Vec<Vec<Point2>>) -> Item {

@@ -11,11 +11,7 @@ fn alone(name: PlannerName) -> String {
     attempt.solve(&Bounds::default()).unwrap();
     let (effort, lengths) = (attempt.effort(), attempt.lengths());
     let (iterations, edges) = (effort.iterations, effort.edges);
-    format!(
-        "{}: iterations {iterations}, edges {edges}, length {:.3}\u{a0}rad, clearance",
-        name.title(),
-        lengths.length
-    )
+    format!("{}: iterations {iterations}, edges {edges}, length {:.3}, clearance", name.title(), lengths.length)
 }
 
 #[test]
@@ -43,6 +39,16 @@ fn a_race_is_read_off_its_table_and_the_planner_in_front_is_the_one_whose_path_i
         harness.get_by_label("End the race").click_accesskit();
         harness.run_steps(3);
         assert_eq!(plan(&harness).racing().collect::<Vec<_>>(), [racing[2]]);
-        assert_eq!(plan(&harness).effort().iterations, 0, "it begins anew");
+        let left = plan(&harness);
+        assert!(left.lengths().is_some() && left.drawn().rivals.is_empty(), "it keeps its path, alone");
+        // who joins grows alone, and the first keeps what it has
+        harness.get_by_label("Race another").click_accesskit();
+        harness.run_steps(3);
+        assert!(
+            plan(&harness).effort().iterations == 0 && plan(&harness).drawn().rivals == [left.drawn().path.clone()]
+        );
+        play(&mut harness);
+        harness.run_steps(2);
+        harness.get_by_label_contains(&alone(racing[2]));
     }
 }

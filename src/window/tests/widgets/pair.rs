@@ -65,6 +65,9 @@ fn a_thing_that_is_dragged_moves_its_region_of_the_space_while_it_is_held() {
     harness.run_steps(2);
     assert_eq!(*atlas(&harness).world(), World::apartment(), "it is only held there");
     assert_eq!([table, beside].map(|at| is_free(known(&harness, at))), [true, false]);
+    harness.run_steps(20);
+    let judged = atlas(&harness).space().map(|space| space.cells().map().progress());
+    assert!(judged.is_some_and(|known| known.done), "held still, it is known to its finest cells");
     harness.key_press(Key::Escape);
     harness.run_steps(3);
     assert_eq!([table, beside].map(|at| is_free(known(&harness, at))), [false, true]);

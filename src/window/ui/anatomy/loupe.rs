@@ -1,5 +1,5 @@
 //! The loupe: the surroundings of the nearest points enlarged, in a corner of the workspace, while they are too close
-//! together to be told apart.
+//! together to be told apart. A frame shows where it looks.
 
 use bevy_egui::egui::{Pos2, Rect, Stroke, StrokeKind, Ui, Vec2, pos2};
 
@@ -38,10 +38,13 @@ pub fn loupe(ui: &Ui, on: &ScreenSheet, anatomy: &Anatomy, look: &FrameColours) 
         .collect();
     let side = SIDE.min(SHARE * on.paper.width().min(on.paper.height()));
     let Some(rect) = free_corner(on.paper.shrink(OFF), side, &taken) else { return };
+    let line = Stroke::new(1.0, look.colour(Role::Muted));
+    let there = Rect::from_two_pos(at(close.bounds.min), at(close.bounds.max));
+    ui.painter_at(on.paper).rect_stroke(there, 0.0, line, StrokeKind::Outside);
     let painter = ui.painter_at(rect.expand(1.0));
     painter.rect_filled(rect, 0.0, look.colour(Role::Paper));
     canvas::paint(&ui.painter_at(rect), &close, &canvas::fit(&close, rect), look);
-    painter.rect_stroke(rect, 0.0, Stroke::new(1.0, look.colour(Role::Muted)), StrokeKind::Inside);
+    painter.rect_stroke(rect, 0.0, line, StrokeKind::Inside);
 }
 
 /// The first corner of a room, that of the scale bar aside, where a square of this side covers nothing that is taken.

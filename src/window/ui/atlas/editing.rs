@@ -169,6 +169,10 @@ impl AtlasState {
 
     /// Shows the world with a change, without making it. A refused one leaves its reason in `message`.
     pub fn try_out(&mut self, op: Op) {
+        if self.tried.as_ref() == Some(&op) {
+            // held still: what is drawn, and what is known of its space, stays
+            return;
+        }
         match self.editor.preview(&op) {
             Ok(world) => {
                 self.see(world.clone());

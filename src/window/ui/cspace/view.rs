@@ -60,7 +60,7 @@ pub fn cspace_view(
                 readouts(ui, look, state);
                 choices(ui, state);
                 PutInRun::of_query(&state.anatomy.anatomy).show(ui, model, look, commands);
-                fold(ui, "Guess first", false, |ui| prompts(ui, PromptSeries::Tips, state));
+                guess(ui, state);
                 crate::window::ui::menu::foot(ui, words, look, state);
             });
         } else {
@@ -72,12 +72,19 @@ pub fn cspace_view(
                 } else {
                     ui.set_max_width(width);
                     PutInRun::of_query(&state.anatomy.anatomy).show(ui, model, look, commands);
-                    fold(ui, "Guess first", false, |ui| prompts(ui, PromptSeries::Tips, state));
+                    guess(ui, state);
                 }
             });
             choices(ui, state);
         }
     });
+}
+
+/// Shows questions about the tips of an arm with two links; of another robot there are none.
+fn guess(ui: &mut Ui, state: &mut UiState) {
+    if state.anatomy.anatomy.lengths().is_some() {
+        fold(ui, "Guess first", false, |ui| prompts(ui, PromptSeries::Tips, state));
+    }
 }
 
 /// Shows the configuration, and how much of the space is known.

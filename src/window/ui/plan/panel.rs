@@ -38,9 +38,10 @@ const MAX_RESIDENTS: usize = 20;
 
 /// Shows the panel: what is planned and by whom, and what came of it.
 pub fn panel(ui: &mut Ui, model: &Dashboard, look: &FrameColours, state: &mut UiState, commands: &mut Vec<Command>) {
+    table(ui, look, &mut state.plan);
     choices(ui, model, state);
     ui.add_space(4.0);
-    outcome(ui, look, &mut state.plan);
+    outcome(ui, look, &state.plan);
     ui.add_space(4.0);
     path_buttons(ui, model, look, &mut state.plan, commands);
     ui.add_space(4.0);
@@ -62,8 +63,7 @@ pub fn choices(ui: &mut Ui, model: &Dashboard, state: &mut UiState) {
 }
 
 /// Shows what came of it.
-pub fn outcome(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState) {
-    table(ui, look, plan);
+pub fn outcome(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
     result(ui, look, plan);
     leave_points(ui, plan);
 }
@@ -239,7 +239,7 @@ fn result(ui: &mut Ui, look: &FrameColours, plan: &PlanState) {
         PlanStage::Growing if effort.iterations == 0 => {}
         PlanStage::Growing => _ = ui.label("It grows."),
         PlanStage::Solved => {
-            if let Some(PathLengths { length, clearance }) = plan.lengths() {
+            if let Some(PathLengths { length, clearance }) = plan.lengths().filter(|_| !plan.is_race()) {
                 let (legs, unit) = (plan.drawn().legs(), unit(&plan.task().robot));
                 headline(ui, &format!("path: {legs}, {length:.3} {unit}"), look.colour(Role::Text));
                 ui.label(monospace(format!("clearance {} m, proven", proven(clearance))));

@@ -14,7 +14,7 @@ const MAX_RACERS: usize = 3;
 
 /// Width of a planner's name and of a number, points, and of a table with its names beside its numbers.
 const NAME: f32 = 120.0;
-const NUMBER: f32 = 62.0;
+const NUMBER: f32 = 70.0;
 const WIDE: f32 = NAME + 4.0 * NUMBER;
 
 /// The numbers of a row.
@@ -42,6 +42,20 @@ impl PlanState {
         self.restart();
     }
 
+    /// Lets another planner join, from its own start. It comes to the front; what the others have, they keep.
+    pub fn join(&mut self, planner: PlannerName) {
+        if self.racers.len() < MAX_RACERS && self.racing().all(|other| other != planner) {
+            self.racers.push(Racer::new(planner, &self.task, self.seed));
+            self.bring(self.racers.len() - 1);
+        }
+    }
+
+    /// Leaves the planner in front alone, with what it has.
+    pub fn end_race(&mut self) {
+        self.racers = vec![self.racer().clone()];
+        self.bring(0);
+    }
+
     /// Brings the planner of this number to the front. Nothing begins anew.
     pub fn bring(&mut self, racer: usize) {
         if racer < self.racers.len() {
@@ -64,39 +78,47 @@ pub fn who_races(ui: &mut Ui, plan: &mut PlanState) {
         if let Some(next) = next
             && ui.link("Race another").on_hover_text("A second and a third planner, at the same task").clicked()
         {
-            let front = plan.planner();
-            plan.race(&[&racing[..], &[next]].concat(), front);
-            plan.bring(racing.len());
+            plan.join(next);
         }
         if plan.is_race() && ui.link("End the race").on_hover_text("Only the planner in front stays").clicked() {
-            let front = plan.planner();
-            plan.race(&[front], front);
+            plan.end_race();
         }
     });
 }
 
-/// Shows the table of a race; a click on a planner brings it to the front. Nothing where one planner is alone.
+/// Shows the table of a race; a click on a planner brings it to the front. Beside the names of the others stands how
+/// their paths are drawn. Nothing where one planner is alone.
 pub fn table(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState) {
     if !plan.is_race() {
         return;
     }
     let is_wide = ui.available_width() >= WIDE;
     let front = plan.planner();
-    let head = NUMBERS.map(|words| RichText::new(words).text_style(TextStyle::Small).color(look.colour(Role::Muted)));
+    let unit = unit(&plan.task().robot);
+    let [iterations, edges, length, clearance] = NUMBERS;
+    let head = [iterations.into(), edges.into(), format!("{length},\u{a0}{unit}"), format!("{clearance},\u{a0}m")];
+    let head =
+        head.map(|words: String| RichText::new(words).text_style(TextStyle::Small).color(look.colour(Role::Muted)));
     row(ui, is_wide.then(|| RichText::new("")), head);
-    let mut chosen = None;
+    let (mut chosen, mut rivals) = (None, 0);
     for (i, racer) in plan.racers.iter().enumerate() {
-        let numbers = numbers(racer, unit(&plan.task().robot));
+        let numbers = numbers(racer);
         let spoken: Vec<String> =
             NUMBERS.iter().zip(&numbers).map(|(name, number)| format!("{name} {number}")).collect();
         let spoken = format!("{}: {}", racer.planner.title(), spoken.join(", "));
+        let line = match (i == plan.front, rivals) {
+            (true, _) => "",
+            (false, 0) => " \u{2013}\u{a0}\u{2013}",
+            (false, _) => " \u{b7}\u{a0}\u{b7}\u{a0}\u{b7}",
+        };
+        rivals += u32::from(i != plan.front);
         let words = numbers.map(|number| RichText::new(number).monospace());
         ui.horizontal(|ui| {
             let size = vec2(if is_wide { NAME } else { ui.available_width() }, ui.spacing().interact_size.y);
             let layout = Layout::left_to_right(Align::Center);
             let name = ui.allocate_ui_with_layout(size, layout, |ui| {
                 ui.set_min_width(if is_wide { NAME } else { 0.0 });
-                ui.selectable_label(racer.planner == front, racer.planner.title())
+                ui.selectable_label(racer.planner == front, format!("{}{line}", racer.planner.title()))
             });
             let name = name.inner;
             name.widget_info(|| WidgetInfo::selected(WidgetType::Button, true, racer.planner == front, &spoken));
@@ -118,12 +140,10 @@ pub fn table(ui: &mut Ui, look: &FrameColours, plan: &mut PlanState) {
 
 /// The numbers of a planner: what it took, and the length and the clearance of its path; a dash where it has none, and
 /// in place of both why there is none.
-fn numbers(racer: &Racer, unit: &str) -> [String; 4] {
+fn numbers(racer: &Racer) -> [String; 4] {
     let effort = racer.effort();
     let [length, clearance] = match (&racer.stage, racer.lengths()) {
-        (_, Some(PathLengths { length, clearance })) => {
-            [format!("{length:.3}\u{a0}{unit}"), format!("{}\u{a0}m", proven(clearance))]
-        }
+        (_, Some(PathLengths { length, clearance })) => [format!("{length:.3}"), proven(clearance)],
         (PlanStage::Ended(_), None) => ["no path".to_owned(), "\u{2013}".to_owned()],
         _ => ["\u{2013}"; 2].map(str::to_owned),
     };

@@ -9,8 +9,10 @@ use super::racer::{PlanStage, Racer};
 use motion_lab_core::collision::Checker;
 use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::picture::{Item, Picture, world as picture_of};
-use motion_lab_core::planning::Effort;
+use motion_lab_core::planning::{Effort, NoPath};
 use motion_lab_core::random::Seed;
+use motion_lab_core::robots::Robot;
+use motion_lab_sim::anatomy::touching_items;
 use motion_lab_sim::capture::judged_words;
 use motion_lab_sim::lens::SpaceCells;
 use motion_lab_sim::manifest::HintTask;
@@ -140,12 +142,18 @@ impl PlanState {
         self.racer().planner
     }
 
-    /// Chooses another planner in place of the one in front. All begin anew.
+    /// Chooses another planner in place of the one in front, from its own start. One that races already goes from its
+    /// old place; the others keep what they have.
     pub fn set_planner(&mut self, planner: PlannerName) {
-        let others = self.racing().enumerate().filter(|(i, other)| *i == self.front || *other != planner);
-        let planners: Vec<PlannerName> =
-            others.map(|(i, other)| if i == self.front { planner } else { other }).collect();
-        self.race(&planners, planner);
+        self.racers[self.front] = Racer::new(planner, &self.task, self.seed);
+        let (mut i, front) = (0, self.front);
+        self.racers.retain(|racer| {
+            i += 1;
+            i == front + 1 || racer.planner != planner
+        });
+        let front = self.racers.iter().position(|racer| racer.planner == planner);
+        (self.playing, self.due) = (false, 0.0);
+        self.bring(front.unwrap_or(0));
     }
 
     /// Whether the planner's robot walks by a range sensor, which may lie.
@@ -355,7 +363,12 @@ impl PlanState {
 
     /// Draws this from now on.
     pub(super) fn draw(&mut self, drawn: Drawn) {
-        let items = workspace_items(&self.task.robot, &drawn);
+        let mut items = workspace_items(&self.task.robot, &drawn);
+        if matches!(self.stage(), PlanStage::Ended(NoPath::Problem(_))) {
+            // an end in contact says with what
+            let ends = drawn.ends.iter().map(|q| self.task.robot.footprint(q));
+            items.extend(ends.flat_map(|footprint| touching_items(&self.task.scene, &footprint)));
+        }
         self.over = Arc::new(Picture::new("plan", self.task.world.bounds).with(items));
         (self.drawn, self.over_cells) = (drawn, None);
     }

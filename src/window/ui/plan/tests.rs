@@ -149,6 +149,9 @@ fn what_is_no_problem_is_said_and_mended_by_another_end() {
     let in_the_block = AnyConfiguration::T2(T2::new(0.785, 0.785));
     plan.move_end(0, in_the_block);
     assert!(matches!(plan.stage(), PlanStage::Ended(NoPath::Problem(_))), "{:?}", plan.stage());
+    let names =
+        |plan: &PlanState| plan.over.items.iter().any(|item| item.id == "touched/name" && item.name == "the block");
+    assert!(names(&plan), "what an end touches is marked");
     plan.step();
     assert_eq!(plan.effort().iterations, 0);
     plan.move_end(0, AnyConfiguration::T2(T2::new(2.0, 0.0)));

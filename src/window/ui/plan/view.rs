@@ -6,6 +6,7 @@ use bevy_egui::egui::{Align2, Rect, ScrollArea, TextStyle, Ui, UiBuilder, Vec2, 
 
 use super::controls::controls;
 use super::panel::{choices, ends, outcome, panel, path_buttons};
+use super::race::table;
 use super::state::PlanState;
 use crate::window::ui::keys::SessionAction;
 use crate::window::ui::paint::canvas::{self, MARGIN};
@@ -113,7 +114,10 @@ pub fn plan_view(
                 let scroll = ScrollArea::vertical().id_salt("outcome").auto_shrink(false);
                 scroll.show(ui, |ui| {
                     two_columns(ui, 0.5 * (under.width() - 20.0), |ui, i| match i {
-                        0 => outcome(ui, look, &mut state.plan),
+                        0 => {
+                            table(ui, look, &mut state.plan);
+                            outcome(ui, look, &state.plan);
+                        }
                         _ => path_buttons(ui, model, look, &mut state.plan, commands),
                     });
                 });
