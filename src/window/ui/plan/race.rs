@@ -13,8 +13,8 @@ use motion_lab_sim::plans::{PathLengths, PlannerName};
 const MAX_RACERS: usize = 3;
 
 /// Width of a planner's name and of a number, points, and of a table with its names beside its numbers.
-const NAME: f32 = 120.0;
-const NUMBER: f32 = 70.0;
+const NAME: f32 = 132.0;
+const NUMBER: f32 = 76.0;
 const WIDE: f32 = NAME + 4.0 * NUMBER;
 
 /// The numbers of a row.
