@@ -3,9 +3,11 @@
 mod batch;
 mod boundary;
 mod broad;
+mod change;
 mod checker;
 mod counted;
 mod forward;
+mod layers;
 mod motion;
 mod narrow;
 mod parry;

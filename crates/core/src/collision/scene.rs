@@ -1,23 +1,20 @@
 //! `Scene`, named obstacles under one index.
 
+use std::ops::Range;
 use std::sync::Arc;
 
-use super::boundary::grid::Cells;
-use super::boundary::segments::SegmentSoup;
-use super::boundary::sight::SightCells;
+use super::boundary::scene_boundary::SceneBoundary;
 use super::broad::frames::Frames;
 use super::broad::index::Index;
+use super::layers::SceneLayers;
 use super::motion::lanes::outlines::PieceOutlines;
 use super::narrow::convex::NearestPoints;
 use super::narrow::distance::depth;
-use super::narrow::nearest::NearestSearch;
+use super::narrow::nearest::{NearestSearch, PieceList};
 use super::narrow::pair::{pair, touch};
 use super::{ObstacleId, Overlap};
 use crate::geometry::{Aabb, Footprint, Placed, Point2, Pose2, Segment, Shape, Vertices, largest_coordinate};
 use crate::worlds::{Obstacle, World};
-
-/// Largest number of segments and discs for which a scan tests them all; with more it walks through a grid.
-const MANY: usize = 128;
 
 /// Named obstacles under one index: a few side by side, many in a grid or under a bounding-volume tree.
 ///
@@ -30,16 +27,16 @@ const MANY: usize = 128;
 /// ```
 #[derive(Clone)]
 pub struct Scene {
-    bounds: Aabb,
-    names: Vec<Arc<str>>,
-    /// All convex pieces in file order, and the obstacle that each belongs to.
+    pub(super) bounds: Aabb,
+    /// The obstacles in file order.
+    pub(super) obstacles: Vec<SceneObstacle>,
+    /// The convex pieces: those of an obstacle after one another, the obstacles in file order. What was put into the
+    /// scene later comes last, and what was taken out is still there.
     pub(super) pieces: Vec<Placed>,
+    /// The number of the obstacle that each piece belongs to; [`GONE`] for a piece that is not there any more.
     pub(super) owners: Vec<u32>,
-    soup: SegmentSoup,
-    /// The grid over the boundary; `None` in a small scene.
-    cells: Option<Cells>,
-    /// What can be seen from where, in a small scene; copies of the scene share it.
-    sight: Option<Arc<SightCells>>,
+    /// The boundary of the pieces that the scene was made of.
+    pub(super) boundary: SceneBoundary,
     pub(super) index: Index,
     /// The pieces' turned boxes; `None` in a large scene.
     pub(super) frames: Option<Frames>,
@@ -47,11 +44,35 @@ pub struct Scene {
     pub(super) outlines: Option<PieceOutlines>,
     /// An upper bound on the size of the pieces' coordinates, metres; infinite where a piece is not valid.
     pub(super) size: f64,
+    /// What has changed since the scene was made; `None` where nothing has.
+    pub(super) layers: Option<Box<SceneLayers>>,
+}
+
+/// The owner of a piece that is not there any more.
+pub(super) const GONE: u32 = u32::MAX;
+
+/// An obstacle of a scene.
+#[derive(Clone, Debug)]
+pub(super) struct SceneObstacle {
+    pub(super) name: Arc<str>,
+    /// The number of its first piece.
+    pub(super) first: u32,
+    /// How many pieces it has.
+    pub(super) count: u32,
+}
+
+impl SceneObstacle {
+    /// The numbers of its pieces.
+    pub(super) fn pieces(&self) -> Range<usize> {
+        let first = self.first as usize;
+        first..first + self.count as usize
+    }
 }
 
 impl std::fmt::Debug for Scene {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Scene").field("bounds", &self.bounds).field("obstacles", &self.names).finish_non_exhaustive()
+        let names: Vec<&str> = self.obstacles.iter().map(|obstacle| &*obstacle.name).collect();
+        f.debug_struct("Scene").field("bounds", &self.bounds).field("obstacles", &names).finish_non_exhaustive()
     }
 }
 
@@ -62,7 +83,7 @@ impl Scene {
     }
 
     /// The scene with one more obstacle, given in world coordinates. Rebuilds the index; for many obstacles at once use
-    /// [`of_world`](Self::of_world).
+    /// [`of_world`](Self::of_world), for one after another [`insert_obstacle`](Self::insert_obstacle).
     ///
     /// A shape that breaks its constructor's rules counts as contact with everything.
     #[must_use]
@@ -74,11 +95,8 @@ impl Scene {
     /// frame's origin.
     #[must_use]
     pub fn with_obstacle_at(mut self, name: &str, pose: Pose2, shape: Shape) -> Self {
-        let owner = self.names.len() as u32;
-        self.names.push(name.into());
-        self.pieces.push(shape.place(&pose));
-        self.owners.push(owner);
-        Self::of_pieces(self.bounds, self.names, self.pieces, self.owners)
+        self.list(self.obstacles.len(), name.into(), vec![shape.place(&pose)]);
+        self.made_of(Placed::clone)
     }
 
     /// A scene of walls, named `wall 0`, `wall 1`, ..; its bounds are the box around them.
@@ -102,10 +120,8 @@ impl Scene {
         let (mut names, mut pieces, mut owners) = (Vec::new(), Vec::new(), Vec::new());
         for (owner, obstacle) in obstacles.into_iter().enumerate() {
             names.push(obstacle.name.as_str().into());
-            for (pose, shape) in &obstacle.pieces {
-                pieces.push(shape.place(pose));
-                owners.push(owner as u32);
-            }
+            pieces.extend(obstacle.placed());
+            owners.resize(pieces.len(), owner as u32);
         }
         Self::of_pieces(bounds, names, pieces, owners)
     }
@@ -130,24 +146,30 @@ impl Scene {
     /// nor is any where the distance is not finite, or takes more than the obstacle's radius away.
     #[must_use]
     pub fn grown(&self, by: f64) -> Self {
-        let pieces = self
-            .pieces
-            .iter()
-            .map(|piece| Placed::new(Vertices::from_slice(piece.core()), piece.radius() + by))
-            .collect();
-        Self::of_pieces(self.bounds, self.names.clone(), pieces, self.owners.clone())
+        self.made_of(|piece| Placed::new(Vertices::from_slice(piece.core()), piece.radius() + by))
+    }
+
+    /// A scene made of this one's obstacles, with their pieces changed.
+    pub(super) fn made_of(&self, piece: impl Fn(&Placed) -> Placed) -> Self {
+        let names = self.obstacles.iter().map(|obstacle| Arc::clone(&obstacle.name)).collect();
+        let (owners, pieces) = self.pieces().map(|(owner, own)| (owner.0, piece(own))).unzip();
+        Self::of_pieces(self.bounds, names, pieces, owners)
     }
 
     fn of_pieces(bounds: Aabb, names: Vec<Arc<str>>, pieces: Vec<Placed>, owners: Vec<u32>) -> Self {
         let extents: Vec<Aabb> = pieces.iter().map(Placed::padded_bounds).collect();
-        let soup = SegmentSoup::of_pieces(&pieces);
-        let many = soup.segments().len() + soup.circles().len() > MANY;
-        let cells = if many { Cells::new(&soup) } else { None };
-        let sight = if many { None } else { SightCells::new(soup.segments()).map(Arc::new) };
+        let mut obstacles: Vec<SceneObstacle> =
+            names.into_iter().map(|name| SceneObstacle { name, first: 0, count: 0 }).collect();
+        for (piece, owner) in owners.iter().enumerate() {
+            let obstacle = &mut obstacles[*owner as usize];
+            obstacle.first = piece as u32 - obstacle.count;
+            obstacle.count += 1;
+        }
+        let boundary = SceneBoundary::new(&pieces);
         let valid = pieces.iter().all(Placed::is_valid);
         let size = if valid { largest_coordinate(&pieces) } else { f64::INFINITY };
         let (index, frames, outlines) = (Index::new(&extents), Frames::new(&pieces), PieceOutlines::new(&pieces, size));
-        Scene { bounds, names, pieces, owners, soup, cells, sight, index, frames, outlines, size }
+        Scene { bounds, obstacles, pieces, owners, boundary, index, frames, outlines, size, layers: None }
     }
 
     /// The part of the plane the scene shows; not an obstacle.
@@ -157,22 +179,31 @@ impl Scene {
 
     /// The number of obstacles.
     pub fn obstacle_count(&self) -> usize {
-        self.names.len()
+        self.obstacles.len()
     }
 
     /// The name of an obstacle; `None` for an id that is not one of this scene's.
     pub fn obstacle_name(&self, id: ObstacleId) -> Option<&str> {
-        self.names.get(id.0 as usize).map(|name| &**name)
+        self.obstacles.get(id.0 as usize).map(|obstacle| &*obstacle.name)
     }
 
     /// The convex pieces of all obstacles in file order, each with its obstacle.
     pub fn pieces(&self) -> impl Iterator<Item = (ObstacleId, &Placed)> {
-        self.owners.iter().map(|&owner| ObstacleId(owner)).zip(&self.pieces)
+        let pieces = |(number, obstacle): (usize, &SceneObstacle)| {
+            let id = ObstacleId(number as u32);
+            self.pieces[obstacle.pieces()].iter().map(move |piece| (id, piece))
+        };
+        self.obstacles.iter().enumerate().flat_map(pieces)
     }
 
-    /// The obstacles' boundary as segments and discs, for rays.
-    pub(crate) fn soup(&self) -> &SegmentSoup {
-        &self.soup
+    /// The boundary, for rays, of what the scene was made of.
+    pub(crate) fn boundary(&self) -> &SceneBoundary {
+        &self.boundary
+    }
+
+    /// The boundaries of what was put into the scene later.
+    pub(crate) fn later_boundaries(&self) -> &[SceneBoundary] {
+        self.layers.as_ref().map_or(&[], |layers| layers.boundaries())
     }
 
     /// The obstacles that the footprint overlaps or touches, in file order. Empty exactly when
@@ -193,22 +224,10 @@ impl Scene {
         touched.into_iter().collect()
     }
 
-    /// The grid over the boundary; `None` in a small scene.
-    pub(crate) fn cells(&self) -> Option<&Cells> {
-        self.cells.as_ref()
-    }
-
-    /// The arrays of the boundary's segments, without some that a scan of this reach from a point cannot meet first.
-    pub(crate) fn seen_from(&self, origin: Point2, reach: f64) -> [&[f64]; 4] {
-        let segments = self.soup.segments();
-        let seen = self.sight.as_ref().and_then(|sight| sight.seen_from(origin, reach, segments));
-        seen.unwrap_or(segments.arrays())
-    }
-
     /// The same scene, which lists nothing.
     #[cfg(test)]
     pub(crate) fn without_lists(&self) -> Self {
-        Scene { sight: None, ..self.clone() }
+        Scene { boundary: SceneBoundary::without_lists(&self.pieces), ..self.clone() }
     }
 
     /// Whether a shape, such as a point or a line, touches an obstacle; true for a shape that is not valid.
@@ -237,12 +256,13 @@ impl Scene {
         let parts = if footprint.is_valid() { footprint.parts() } else { &[] };
         for (part, shape) in parts.iter().map(|part| part.placed()).enumerate() {
             self.each_within(shape, 0.0, |piece| {
-                let found = depth(shape, &self.pieces[piece]);
+                let (found, owner) = (depth(shape, &self.pieces[piece]), self.owners[piece]);
                 let is_deeper = |(before, overlap): &(usize, Overlap)| {
-                    found > overlap.depth || (found == overlap.depth && part == overlap.part && piece < *before)
+                    let is_first = || (owner, piece) < (overlap.obstacle.0, *before);
+                    found > overlap.depth || (found == overlap.depth && part == overlap.part && is_first())
                 };
                 if found > 0.0 && deepest.as_ref().is_none_or(is_deeper) {
-                    deepest = Some((piece, Overlap { part, obstacle: ObstacleId(self.owners[piece]), depth: found }));
+                    deepest = Some((piece, Overlap { part, obstacle: ObstacleId(owner), depth: found }));
                 }
                 false
             });
@@ -252,7 +272,8 @@ impl Scene {
 
     /// A search for the piece nearest to `shape`, if any is nearer than `within`.
     pub(super) fn search<'a>(&'a self, shape: &'a Placed, within: f64) -> NearestSearch<'a> {
-        NearestSearch::new(shape, &self.pieces, self.size, within)
+        let among = PieceList { pieces: &self.pieces, owners: &self.owners, size: self.size };
+        NearestSearch::new(shape, among, within)
     }
 
     /// The nearest piece to `shape`, the first in file order among equals, if any is nearer than `within`.
@@ -262,11 +283,11 @@ impl Scene {
         search.found()
     }
 
-    /// The pieces whose boxes meet the shape's box.
+    /// The pieces whose boxes meet the shape's box, in the order of a scene made whole.
     pub(crate) fn pieces_near(&self, shape: &Placed) -> Vec<&Placed> {
-        let mut near = Vec::new();
-        self.each_within(shape, 0.0, |piece| {
-            near.push(&self.pieces[piece]);
+        let (mut near, whole) = (Vec::new(), self.whole());
+        whole.index.each_near(&shape.padded_bounds(), 0.0, |number| {
+            near.push(&self.pieces[whole.piece(number)]);
             false
         });
         near

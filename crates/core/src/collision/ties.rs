@@ -24,7 +24,10 @@ impl Scene {
         let reach = first.dist + greater(slack, 0.0);
         let mut ties: Vec<Witness> = Vec::new();
         for (part, shape) in footprint.parts().iter().map(|part| part.placed()).enumerate() {
-            self.each_within(shape, reach + ulp(reach), |piece| {
+            // of an obstacle's pieces at the same distance the first found counts
+            let whole = self.whole();
+            whole.index.each_near(&shape.padded_bounds(), reach + ulp(reach), |number| {
+                let piece = whole.piece(number);
                 let (near, obstacle) = (pair(shape, &self.pieces[piece]), ObstacleId(self.owners[piece]));
                 let found = Witness { on_robot: near.on_a, on_obstacle: near.on_b, dist: near.dist, part, obstacle };
                 match ties.iter_mut().find(|tie| tie.part == part && tie.obstacle == obstacle) {

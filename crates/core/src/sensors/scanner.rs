@@ -126,13 +126,14 @@ impl Scanner {
             nothing: 0.0,
         };
         let Scanner { kernel, fan, walk, desk, others: soup, .. } = self;
-        match scene.cells() {
-            Some(cells) => walk.raise(Boundary { soup: scene.soup(), cells }, &view, kernel, fan, desk),
-            None => {
-                raise_those(scene.seen_from(origin, reach), scene.soup().circles(), &view, kernel, fan, desk);
+        for boundary in std::iter::once(scene.boundary()).chain(scene.later_boundaries()) {
+            let soup = boundary.soup();
+            match boundary.cells() {
+                Some(cells) => walk.raise(Boundary { soup, cells }, &view, kernel, fan, desk),
+                None => raise_those(boundary.seen_from(origin, reach), soup.circles(), &view, kernel, fan, desk),
             }
+            fan.open = u64::MAX;
         }
-        fan.open = u64::MAX;
         soup.clear();
         for part in others {
             match (part.core(), part.radius()) {

@@ -194,7 +194,7 @@ fn a_fan_sees_large_worlds_as_defined() {
             let disc = Shape::Disc { radius: draws.uniform(0.01, 0.03 * size) };
             scene = scene.with_obstacle_at(&format!("disc {i}"), at, disc);
         }
-        assert!(scene.cells().is_some());
+        assert!(scene.boundary().cells().is_some());
         for (n, range) in [(5, 100.0), (90, 4.0), (505, 9.0), (1300, 2.0)] {
             for wide in FIELDS {
                 let mut scanners = fans(n, range, wide);
@@ -282,7 +282,7 @@ fn large_worlds_are_seen_as_defined_from_inside_and_outside() {
             let disc = Shape::Disc { radius: draws.uniform(0.01, 0.03 * size) };
             scene = scene.with_obstacle_at(&format!("disc {i}"), at, disc);
         }
-        assert!(scene.cells().is_some());
+        assert!(scene.boundary().cells().is_some());
         for (n, range) in [(360, 4.0), (7, 100.0), (701, 0.7)] {
             let mut scanners = scanners(n, range);
             for k in 0..40 {

@@ -1,5 +1,6 @@
 //! The four questions.
 
+mod changes;
 mod chapter;
 mod exercises;
 mod extremes;

@@ -174,6 +174,26 @@ impl Cells {
         &self.things[self.starts[cell] as usize..self.starts[cell + 1] as usize]
     }
 
+    /// Makes a segment with these ends NaN, which no ray hits; false where there is none.
+    pub(crate) fn forget(&mut self, segment: &Segment) -> bool {
+        let place = self.place(segment.a);
+        if !self.holds(place.column, place.row) {
+            return false;
+        }
+        let cell = self.number(place.column, place.row);
+        for k in self.starts[cell] as usize..self.starts[cell + 1] as usize {
+            // discs have numbers beyond those of segments
+            if let Some(own) = self.segments.get_mut(self.things[k] as usize)
+                && own == segment
+            {
+                let nowhere = Point2::new(f64::NAN, f64::NAN);
+                *own = Segment::new(nowhere, nowhere);
+                return true;
+            }
+        }
+        false
+    }
+
     #[inline(always)]
     pub(crate) fn segment(&self, number: u32) -> &Segment {
         &self.segments[number as usize]

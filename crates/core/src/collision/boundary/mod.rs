@@ -2,5 +2,6 @@
 
 pub(crate) mod grid;
 mod occluder;
+pub(crate) mod scene_boundary;
 pub(crate) mod segments;
 pub(crate) mod sight;

@@ -57,6 +57,15 @@ impl SegmentArrays {
         self.count += 1;
     }
 
+    /// Makes the first segment with these ends NaN; false where there is none.
+    fn forget(&mut self, segment: &Segment) -> bool {
+        let Some(i) = (0..self.count).find(|i| self.segment(*i) == *segment) else { return false };
+        for array in [&mut self.ax, &mut self.ay, &mut self.bx, &mut self.by] {
+            array[i] = f64::NAN;
+        }
+        true
+    }
+
     /// Removes all segments but keeps the memory.
     pub(crate) fn clear(&mut self) {
         for array in [&mut self.ax, &mut self.ay, &mut self.bx, &mut self.by] {
@@ -67,15 +76,6 @@ impl SegmentArrays {
 }
 
 impl SegmentSoup {
-    /// The boundaries of all valid `pieces`.
-    pub(crate) fn of_pieces(pieces: &[Placed]) -> Self {
-        let mut soup = SegmentSoup::default();
-        for piece in pieces {
-            soup.push(piece);
-        }
-        soup
-    }
-
     pub(crate) fn segments(&self) -> &SegmentArrays {
         &self.segments
     }
@@ -116,6 +116,22 @@ impl SegmentSoup {
         if r > 0.0 {
             self.circles.extend(core.iter().map(|&centre| Circle { centre, radius: r }));
         }
+    }
+
+    /// Makes a segment with these ends NaN, which no ray hits; false where there is none.
+    pub(crate) fn forget_segment(&mut self, segment: &Segment) -> bool {
+        self.segments.forget(segment)
+    }
+
+    /// Makes one of the discs with these numbers NaN, which no ray hits: the first that is the same as this one. False
+    /// where none is.
+    pub(crate) fn forget_circle(&mut self, numbers: impl IntoIterator<Item = usize>, circle: &Circle) -> bool {
+        let is_same = |own: &Circle| (own.centre, own.radius) == (circle.centre, circle.radius);
+        let Some(number) = numbers.into_iter().find(|number| self.circles.get(*number).is_some_and(is_same)) else {
+            return false;
+        };
+        self.circles[number] = Circle { centre: Point2::new(f64::NAN, f64::NAN), radius: f64::NAN };
+        true
     }
 
     #[cfg(test)]

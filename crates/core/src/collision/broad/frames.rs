@@ -43,7 +43,7 @@ struct CapsuleLine {
 impl Frames {
     /// The boxes of the pieces; `None` where there are too many.
     pub(crate) fn new(pieces: &[Placed]) -> Option<Self> {
-        if pieces.len() > FEW {
+        if !Frames::fits(pieces.len()) {
             return None;
         }
         let boxes = vec![TurnedBoxes::default(); pieces.len().div_ceil(LANES)];
@@ -55,6 +55,11 @@ impl Frames {
             }
         }
         Some(frames)
+    }
+
+    /// Whether a scene of this many pieces has them.
+    pub(crate) fn fits(count: usize) -> bool {
+        count <= FEW
     }
 
     /// The pieces that a disc of this radius may touch while its centre runs along the line, as bits by their numbers.

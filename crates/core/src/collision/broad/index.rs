@@ -9,12 +9,27 @@ use crate::geometry::Aabb;
 #[derive(Clone)]
 pub struct Index(BoxStructure);
 
-/// A few side by side, many in a grid, or under a tree where no grid fits them.
+/// A few side by side, many in a grid, or under a tree where no grid fits them; in layers where some came later.
 #[derive(Clone)]
 enum BoxStructure {
     Few(Boxes),
     Grid(PieceGrid),
     Tree(BoxTree),
+    Layers(IndexLayers),
+}
+
+/// Indices of pieces that follow one another by their numbers, and which pieces are gone.
+#[derive(Clone)]
+struct IndexLayers {
+    layers: Vec<IndexLayer>,
+    gone: Vec<bool>,
+}
+
+/// An index with the number of its first piece.
+#[derive(Clone)]
+struct IndexLayer {
+    first: usize,
+    index: Index,
 }
 
 impl Index {
@@ -33,6 +48,7 @@ impl Index {
             BoxStructure::Few(boxes) => boxes.nearest(from, within, look),
             BoxStructure::Grid(grid) => grid.nearest(from, within, look),
             BoxStructure::Tree(tree) => tree.nearest(from, within, look),
+            BoxStructure::Layers(layers) => layers.nearest(from, within, &mut { look }),
         }
     }
 
@@ -42,7 +58,66 @@ impl Index {
             BoxStructure::Few(boxes) => boxes.each_near(from, range, visit),
             BoxStructure::Grid(grid) => grid.each_near(from, range, visit),
             BoxStructure::Tree(tree) => tree.each_near(from, range, visit),
+            BoxStructure::Layers(layers) => layers.each_near(from, range, &mut { visit }),
         }
+    }
+
+    /// Makes the boxes of the pieces from number `first` on these. Those before stay as they are.
+    pub(crate) fn put_from(&mut self, first: usize, extents: &[Aabb]) {
+        self.change(|layers| {
+            layers.layers.retain(|layer| layer.first < first);
+            layers.layers.push(IndexLayer { first, index: Index::new(extents) });
+        });
+    }
+
+    /// Takes a piece away. Its number stays unused.
+    pub(crate) fn forget(&mut self, piece: usize) {
+        self.change(|layers| {
+            layers.gone.resize(layers.gone.len().max(piece + 1), false);
+            layers.gone[piece] = true;
+        });
+    }
+
+    /// Changes its layers, of which it is the first where it had none.
+    fn change(&mut self, change: impl FnOnce(&mut IndexLayers)) {
+        let mut layers = match std::mem::replace(&mut self.0, BoxStructure::Few(Boxes::default())) {
+            BoxStructure::Layers(layers) => layers,
+            only => IndexLayers { layers: vec![IndexLayer { first: 0, index: Index(only) }], gone: Vec::new() },
+        };
+        change(&mut layers);
+        self.0 = BoxStructure::Layers(layers);
+    }
+}
+
+// the closures are not generic here, because each layer would make another of them without end
+impl IndexLayers {
+    fn nearest(&self, from: &Aabb, within: f64, look: &mut dyn FnMut(usize) -> f64) {
+        let mut least = within;
+        for IndexLayer { first, index } in &self.layers {
+            index.nearest(from, least, |piece| {
+                if !self.is_gone(first + piece) {
+                    least = look(first + piece);
+                }
+                least
+            });
+        }
+    }
+
+    fn each_near(&self, from: &Aabb, range: f64, visit: &mut dyn FnMut(usize) -> bool) {
+        let mut found = false;
+        for IndexLayer { first, index } in &self.layers {
+            index.each_near(from, range, |piece| {
+                found = found || (!self.is_gone(first + piece) && visit(first + piece));
+                found
+            });
+            if found {
+                return;
+            }
+        }
+    }
+
+    fn is_gone(&self, piece: usize) -> bool {
+        self.gone.get(piece).is_some_and(|gone| *gone)
     }
 }
 

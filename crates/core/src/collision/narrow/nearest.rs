@@ -11,13 +11,28 @@ use crate::geometry::{Aabb, Placed};
 /// A search under way for the piece nearest to a shape, the first in file order among equals.
 pub(crate) struct NearestSearch<'a> {
     shape: &'a Placed,
-    pieces: &'a [Placed],
-    /// An upper bound on the size of the pieces' coordinates, metres. Infinite where a piece is not valid, so that no
-    /// piece is passed over.
-    size: f64,
+    among: PieceList<'a>,
     within: f64,
     best: Option<(usize, NearestPoints)>,
     sides: Option<Sides>,
+}
+
+/// The pieces of a scene.
+#[derive(Clone, Copy)]
+pub(crate) struct PieceList<'a> {
+    pub(crate) pieces: &'a [Placed],
+    /// The number of the obstacle that each piece belongs to.
+    pub(crate) owners: &'a [u32],
+    /// An upper bound on the size of the pieces' coordinates, metres. Infinite where a piece is not valid, so that no
+    /// piece is passed over.
+    pub(crate) size: f64,
+}
+
+impl PieceList<'_> {
+    /// Whether a piece is before another in file order.
+    fn is_before(&self, piece: usize, other: usize) -> bool {
+        (self.owners[piece], piece) < (self.owners[other], other)
+    }
 }
 
 /// What measuring side by side says of a piece.
@@ -30,8 +45,8 @@ enum Across {
 
 impl<'a> NearestSearch<'a> {
     /// A search for a piece nearer than `within`.
-    pub(crate) fn new(shape: &'a Placed, pieces: &'a [Placed], size: f64, within: f64) -> Self {
-        NearestSearch { shape, pieces, size, within, best: None, sides: None }
+    pub(crate) fn new(shape: &'a Placed, among: PieceList<'a>, within: f64) -> Self {
+        NearestSearch { shape, among, within, best: None, sides: None }
     }
 
     /// The box around the shape, which is valid.
@@ -45,7 +60,7 @@ impl<'a> NearestSearch<'a> {
 
     /// Measures a piece, unless it is certainly too far, and returns the least distance so far.
     pub(crate) fn look(&mut self, piece: usize) -> f64 {
-        let (other, least) = (&self.pieces[piece], self.least());
+        let (other, least) = (&self.among.pieces[piece], self.least());
         if least < f64::INFINITY && self.passes_over(other, least) {
             return least;
         }
@@ -57,14 +72,14 @@ impl<'a> NearestSearch<'a> {
     fn passes_over(&mut self, piece: &Placed, least: f64) -> bool {
         let sides = self.sides.get_or_insert_with(|| Sides::of(self.shape));
         let reach = self.shape.radius() + piece.radius();
-        sides.gap(piece) - reach > least * (1.0 + 1e-12) + 64.0 * f64::EPSILON * (self.size + reach)
+        sides.gap(piece) - reach > least * (1.0 + 1e-12) + 64.0 * f64::EPSILON * (self.among.size + reach)
     }
 
     /// As [`look`](Self::look), for the hulls and footprints of an edge, which are near the pieces and have many
     /// corners: it tries to part the two first, side by side. Returns 0 at once where piece and shape certainly
     /// overlap; then the search finds no nearest piece.
     pub(crate) fn look_for_distance(&mut self, piece: usize, room: &mut LaneRoom) -> f64 {
-        let (other, least) = (&self.pieces[piece], self.least());
+        let (other, least) = (&self.among.pieces[piece], self.least());
         match self.across(other, least, room) {
             Some(Across::Farther) => return least,
             Some(Across::Measured(found)) => return self.take(piece, found),
@@ -93,7 +108,7 @@ impl<'a> NearestSearch<'a> {
             return None;
         }
         let reach = self.shape.radius() + other.radius();
-        let size = self.size + room.size() + reach;
+        let size = self.among.size + room.size() + reach;
         let slack = 64.0 * f64::EPSILON * size;
         let farther = |gap: f64| gap - reach > least * (1.0 + 1e-12) + slack;
         let gap = room.gap(other.core());
@@ -118,7 +133,7 @@ impl<'a> NearestSearch<'a> {
         if self.shape.core().len() <= 2 && self.least() == f64::INFINITY {
             return None;
         }
-        let slack = 64.0 * f64::EPSILON * (self.size + self.shape.radius() + other.radius());
+        let slack = 64.0 * f64::EPSILON * (self.among.size + self.shape.radius() + other.radius());
         let line = Parting::of(self.shape.core(), other.core())?;
         (line.gap > 1e-12 * line.gap + slack).then_some(SureParting { line, slack })
     }
@@ -127,7 +142,8 @@ impl<'a> NearestSearch<'a> {
     /// far.
     fn take(&mut self, piece: usize, found: Option<NearestPoints>) -> f64 {
         if let Some(found) = found
-            && (found.dist < self.least() || self.best.is_some_and(|(p, n)| found.dist == n.dist && piece < p))
+            && (found.dist < self.least()
+                || self.best.is_some_and(|(p, n)| found.dist == n.dist && self.among.is_before(piece, p)))
         {
             self.best = Some((piece, found));
         }

@@ -17,8 +17,8 @@ const ENOUGH: usize = 64;
 
 /// The segments that a scan from here is cast at, once it was visited often enough.
 fn listed(scene: &Scene, p: Point2, reach: f64) -> Vec<Segment> {
-    (0..ENOUGH).for_each(|_| _ = scene.seen_from(p, reach));
-    let [ax, ay, bx, by] = scene.seen_from(p, reach);
+    (0..ENOUGH).for_each(|_| _ = scene.boundary().seen_from(p, reach));
+    let [ax, ay, bx, by] = scene.boundary().seen_from(p, reach);
     let ends = (0..ax.len()).map(|i| Segment::new(Point2::new(ax[i], ay[i]), Point2::new(bx[i], by[i])));
     ends.filter(|s| !s.a.x.is_nan()).collect()
 }
@@ -39,7 +39,7 @@ struct Twins {
 
 impl Twins {
     fn new(listing: Scene, max_range: f64) -> Self {
-        assert!(listing.cells().is_none(), "it has a grid");
+        assert!(listing.boundary().cells().is_none(), "it has a grid");
         Twins { plain: listing.without_lists(), listing, scanners: scanners(360, max_range), scans: 0, fewer: 0 }
     }
 
@@ -51,7 +51,7 @@ impl Twins {
         let reach = self.scanners[0].sensor().max_range;
         let seen = listed(&self.listing, p, reach).len();
         self.scans += 1;
-        self.fewer += self.plain.soup().segments().len() - seen;
+        self.fewer += self.plain.boundary().soup().segments().len() - seen;
         let count = self.scanners.len();
         let scanner = &mut self.scanners[self.scans % count];
         let (mut ours, mut theirs) = ([0.0; 360], [0.0; 360]);
@@ -66,7 +66,7 @@ impl Twins {
     /// Poses at random, and such as give rays through the ends of segments and along them, and lie on the sides of
     /// squares.
     fn compare_many(&mut self, draws: &mut Stream, poses: usize) {
-        let segments = self.plain.soup().segments().clone();
+        let segments = self.plain.boundary().soup().segments().clone();
         let ends: Vec<Point2> = (0..segments.len()).map(|i| segments.segment(i)).flat_map(|s| [s.a, s.b]).collect();
         let least = ends.iter().fold(ends[0], |m, p| Point2::new(num::lesser(m.x, p.x), num::lesser(m.y, p.y)));
         let most = ends.iter().fold(ends[0], |m, p| Point2::new(num::greater(m.x, p.x), num::greater(m.y, p.y)));
@@ -182,7 +182,7 @@ fn lists_change_no_bit_of_a_scan_through_the_joints_of_a_fence() {
 #[test]
 fn what_wins_a_ray_is_listed_and_little_else() {
     let scene = Scene::apartment();
-    let all: Vec<Segment> = (0..62).map(|i| scene.soup().segments().segment(i)).collect();
+    let all: Vec<Segment> = (0..62).map(|i| scene.boundary().soup().segments().segment(i)).collect();
     let (mut squares, mut kept, mut seen) = (0, 0, 0);
     for number in 0..48 * 32 {
         let (column, row) = (f64::from(number % 48), f64::from(number / 48));
@@ -229,6 +229,6 @@ fn scans_of_many_threads_at_once_are_those_of_one() {
     let scene = Scene::apartment();
     let many = sensor.scans(&scene, &poses);
     let copy = scene.clone();
-    assert!(copy.seen_from(poses[0].position(), 9.0)[0].len() < 62, "a copy shares the lists");
+    assert!(copy.boundary().seen_from(poses[0].position(), 9.0)[0].len() < 62, "a copy shares the lists");
     assert_eq!(bits(&many), bits(&sensor.scans(&scene.without_lists(), &poses)));
 }

@@ -123,7 +123,8 @@ impl DiscLine {
             clearance = lesser(least - slack, clearance);
             // certainly in contact, or certainly apart
             if nearer < -slack {
-                obstacle = Some(obstacle.map_or(piece, |o: u32| o.min(piece)));
+                let owner = scene.owners[piece as usize];
+                obstacle = Some(obstacle.map_or(owner, |o: u32| o.min(owner)));
             } else if nearer <= slack {
                 return None;
             }
@@ -131,7 +132,7 @@ impl DiscLine {
         if clearance <= 0.0 {
             return None;
         }
-        let obstacle = ObstacleId(scene.owners[obstacle? as usize]);
+        let obstacle = ObstacleId(obstacle?);
         let step = ProvenStep { from: 0.0, to: free_until, clearance };
         Some((step, EdgeVerdict::Hit { free_until, contact_at, part: 0, by: HitBy::Obstacle(obstacle) }))
     }
@@ -171,7 +172,10 @@ impl DiscLine {
         let extent = Aabb { min: a, max: a }.merged(&Aabb { min: b, max: b }).grown(64.0 * ulp(self.size));
         // a piece farther from the line than this is certainly not touched
         let near = self.radius + BRACKET;
-        scene.index.nearest(&extent, f64::INFINITY, |piece| {
+        // which pieces are measured decides on the longest edge, and by it on the last bits of a clearance
+        let whole = scene.whole();
+        whole.index.nearest(&extent, f64::INFINITY, |number| {
+            let piece = whole.piece(number);
             let (distance, longest) = gap(&self.way, &scene.pieces[piece]);
             found.longest = greater(longest, found.longest);
             if distance > near {

@@ -67,6 +67,12 @@ impl PieceOutlines {
         pieces.iter().all(|piece| all.push(piece)).then_some(all)
     }
 
+    /// Adds a valid piece whose coordinates are at most `size`; false where that is too large, or where it is not
+    /// convex. Then the pieces as a whole have no outlines.
+    pub(crate) fn add(&mut self, piece: &Placed, size: f64) -> bool {
+        size <= MAX_SIZE && self.push(piece)
+    }
+
     /// Adds a piece; false where it is not convex.
     fn push(&mut self, piece: &Placed) -> bool {
         let core = piece.core();
