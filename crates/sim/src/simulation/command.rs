@@ -9,7 +9,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::obstacles::change::{RefusedChanges, refusal};
-use super::obstacles::roster::{add_obstacle, sync_added};
+use super::obstacles::sync::{add_obstacle, sync_added};
 use super::transport::re_rolled;
 use super::truth::settle;
 use super::{

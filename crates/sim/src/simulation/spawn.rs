@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::obstacles::roster::{ObstacleRoster, WorldObstacles, sync_added};
+use super::obstacles::roster::{ObstacleRoster, WorldObstacles};
+use super::obstacles::sync::sync_added;
 use super::robot::spawn::{RobotEntities, spawn_robots};
 use super::tick::world_crowds::WorldCrowds;
 use super::truth::run_config::RunConfig;

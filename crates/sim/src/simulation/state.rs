@@ -114,7 +114,7 @@ pub(super) fn put_frame(world: &mut World, frame: &Frame) -> Result<(), RestoreE
             return Err(refused);
         }
     }
-    super::obstacles::roster::restore(world, tick, &frame.obstacles)?;
+    super::obstacles::sync::restore(world, tick, &frame.obstacles)?;
     world.resource_mut::<Transport>().tick = tick;
     super::tick::sense::sense_now(world);
     record(world);

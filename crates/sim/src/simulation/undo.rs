@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::obstacles::roster::sync_added;
+use super::obstacles::sync::sync_added;
 use super::{
     CommandError, History, Keyframes, PendingInput, Playback, RunConfig, Transport, is_under_way, recipe, restore,
     seek, start_recipe,

@@ -3,6 +3,7 @@
 mod before_tick_0;
 mod captures;
 mod doors;
+mod growing;
 mod live;
 mod logs;
 mod within_a_tick;

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use bevy::prelude::*;
 
-use super::roster::{ObstacleRoster, WorldObstacles, place, refresh, wanted, with_roster};
+use super::roster::{ObstacleRoster, WorldObstacles, place, wanted, with_roster};
+use super::standing::refresh;
 use super::standing_parts::StandingParts;
 use crate::run::WorldEvent;
 use crate::simulation::{Placement, RobotName};

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use super::roster::{ObstacleRoster, refresh, with_roster};
+use super::roster::{ObstacleRoster, with_roster};
+use super::standing::refresh;
 use crate::simulation::truth::thing::RunThing;
 use crate::simulation::truth::touched::{ForeignTouches, at_work};
 use crate::simulation::{Door, ObstacleOf, ObstacleShape, Obstacles, Placement, Roster, SimulatedWorld};

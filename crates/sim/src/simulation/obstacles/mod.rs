@@ -2,6 +2,9 @@
 
 pub(crate) mod change;
 pub(crate) mod dress;
+mod number_set;
 pub(crate) mod roster;
+mod standing;
 mod standing_parts;
 pub(crate) mod start;
+pub(crate) mod sync;

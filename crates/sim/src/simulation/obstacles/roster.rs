@@ -6,19 +6,17 @@ use std::sync::Arc;
 
 use bevy::prelude::*;
 
-use crate::run::{ObstacleState, ObstacleStates, WorldChange, WorldEvent};
+use super::number_set::NumberSet;
+use crate::run::{ObstacleState, ObstacleStates, WorldChange};
 use crate::simulation::truth::thing::RunThing;
 use crate::simulation::truth::touched::at_work;
-use crate::simulation::{
-    Door, ObstacleOf, ObstacleShape, Placement, RestoreError, SceneRevision, SimulatedWorld, StandingWorld, WorldScene,
-};
-use motion_lab_core::collision::Scene;
+use crate::simulation::{Door, ObstacleOf, ObstacleShape, Placement};
 use motion_lab_core::geometry::Pose2;
 use motion_lab_core::worlds::{Obstacle, World as WorldModel};
 
 /// Where an obstacle's shape comes from.
 #[derive(Debug)]
-enum ShapeSource {
+pub(super) enum ShapeSource {
     /// The world's obstacle of this number.
     File(usize),
     /// The world's door of this number.
@@ -29,8 +27,8 @@ enum ShapeSource {
 #[derive(Debug)]
 pub(super) struct RosterEntry {
     pub(super) entity: Entity,
-    source: ShapeSource,
-    at_first: Placement,
+    pub(super) source: ShapeSource,
+    pub(super) at_first: Placement,
     pub(super) now: Placement,
 }
 
@@ -39,17 +37,21 @@ pub(super) struct RosterEntry {
 pub(crate) struct WorldObstacles {
     pub(super) entity: Entity,
     /// The world's number.
-    number: usize,
+    pub(super) number: usize,
     /// The world at the start of the run.
     pub(super) start: Arc<WorldModel>,
     pub(super) entries: Vec<RosterEntry>,
-    numbers: BTreeMap<String, usize>,
+    pub(super) numbers: BTreeMap<String, usize>,
     /// The states of the entries that are not as they were at first, as frames hold them.
-    changed: ObstacleStates,
+    pub(super) changed: ObstacleStates,
     /// The numbers of the entries whose entities are yet to be given their placements.
     pub(super) unshown: BTreeSet<usize>,
-    /// Whether the scene is older than the placements.
+    /// Whether the scene is older than the placements in ways that nobody has listed, and has to be made anew.
     pub(super) is_stale: bool,
+    /// The entries that are in the scene.
+    pub(super) in_scene: NumberSet,
+    /// The numbers of the entries that were placed since the scene followed.
+    pub(super) placed: BTreeSet<usize>,
 }
 
 /// The obstacles and doors of the run, by world and number. It decides what robots meet. The entities carry the same.
@@ -72,6 +74,8 @@ impl WorldObstacles {
             changed,
             unshown,
             is_stale: true,
+            in_scene: NumberSet::default(),
+            placed: BTreeSet::new(),
         };
         let obstacles = start.obstacles.iter().enumerate().map(|(i, o)| (&o.name, ShapeSource::File(i), true));
         let doors = start.doors.iter().enumerate().map(|(i, d)| (&d.name, ShapeSource::Door(i), !d.open));
@@ -84,8 +88,16 @@ impl WorldObstacles {
     }
 
     /// The ground of a world whose scene was made with it.
-    pub(crate) fn fresh(self) -> Self {
-        WorldObstacles { is_stale: false, ..self }
+    pub(crate) fn fresh(mut self) -> Self {
+        self.note_all();
+        self
+    }
+
+    /// Notes that the scene is that of the placements.
+    pub(super) fn note_all(&mut self) {
+        self.is_stale = false;
+        self.placed.clear();
+        self.in_scene = self.entries.iter().map(|entry| entry.now.present).collect();
     }
 
     /// Gives every obstacle the components that the run has for it.
@@ -121,7 +133,7 @@ impl WorldObstacles {
     }
 
     /// Adds an obstacle, which is not there yet.
-    fn add(&mut self, world: &mut World, obstacle: Obstacle) {
+    pub(super) fn add(&mut self, world: &mut World, obstacle: Obstacle) {
         let (name, absent) = (obstacle.name.clone(), Placement { present: false, ..Placement::default() });
         self.push(&name, Entity::PLACEHOLDER, ShapeSource::Added(obstacle), absent);
         self.dress(world, self.entries.len() - 1);
@@ -180,33 +192,6 @@ impl WorldObstacles {
             ShapeSource::Added(obstacle) => Cow::Borrowed(obstacle),
         })
     }
-
-    /// The world as it stands now: its obstacles where they are, then the added ones, and its doors open or closed.
-    fn standing(&self) -> Arc<WorldModel> {
-        if self.changed.is_empty() {
-            return Arc::clone(&self.start);
-        }
-        // the obstacles, of which there may be many, are not copied first
-        let WorldModel { name, bounds, obstacles: _, doors, places, marks, routes, robots } = &*self.start;
-        let mut model = WorldModel {
-            name: name.clone(),
-            bounds: *bounds,
-            obstacles: Vec::with_capacity(self.entries.len()),
-            doors: doors.clone(),
-            places: places.clone(),
-            marks: marks.clone(),
-            routes: routes.clone(),
-            robots: robots.clone(),
-        };
-        for (number, entry) in self.entries.iter().enumerate() {
-            if let ShapeSource::Door(i) = entry.source {
-                model.doors[i].open = !entry.now.present;
-            } else {
-                model.obstacles.extend(self.placed(number, &entry.now));
-            }
-        }
-        Arc::new(model)
-    }
 }
 
 /// The component of an obstacle.
@@ -245,7 +230,8 @@ pub(crate) fn with_roster<T>(world: &mut World, work: impl FnOnce(&mut World, &m
     })
 }
 
-/// Puts an obstacle somewhere. The scene follows with [`refresh`], its entity with [`show`](super::dress::show).
+/// Puts an obstacle somewhere. The scene follows with [`refresh`](super::standing::refresh), its entity with
+/// [`show`](super::dress::show).
 pub(crate) fn place(ground: &mut WorldObstacles, number: usize, placement: Placement) {
     let Some(entry) = ground.entries.get_mut(number).filter(|e| e.now != placement) else { return };
     entry.now = placement;
@@ -255,104 +241,8 @@ pub(crate) fn place(ground: &mut WorldObstacles, number: usize, placement: Place
     } else {
         ground.changed.set(ObstacleState { world, obstacle, present, pose });
     }
-    ground.is_stale = true;
+    ground.placed.insert(number);
     ground.unshown.insert(number);
-}
-
-/// Gives every world whose obstacles were changed its new scene, under a new revision.
-pub(crate) fn refresh(world: &mut World, roster: &mut ObstacleRoster) {
-    for ground in roster.grounds.iter_mut().filter(|ground| ground.is_stale) {
-        ground.is_stale = false;
-        let model = ground.standing();
-        let scene = Arc::new(Scene::of_world(&model));
-        if let Ok(mut entity) = world.get_entity_mut(ground.entity) {
-            entity.insert((WorldScene(scene), SceneRevision::new(), StandingWorld(model)));
-        }
-    }
-}
-
-/// Spawns the entity of the obstacle that a change adds, which comes after all others of its world.
-pub(crate) fn add_obstacle(world: &mut World, event: &WorldEvent) {
-    let Some(Ok(obstacle)) = event.change.added() else { return };
-    with_roster(world, |world, roster| {
-        let number = roster.world(&event.world);
-        if let Some(ground) = number.and_then(|number| roster.grounds.get_mut(number)) {
-            ground.add(world, obstacle);
-        }
-    });
-}
-
-/// Makes the entities of added obstacles those of these changes: spawns what they add, and despawns what they don't.
-pub(crate) fn sync_added(world: &mut World, changes: &[WorldEvent]) {
-    let mut added: BTreeMap<&str, Vec<Obstacle>> = BTreeMap::new();
-    for WorldEvent { world, change, .. } in changes {
-        if let Some(Ok(obstacle)) = change.added() {
-            added.entry(world).or_default().push(obstacle);
-        }
-    }
-    with_roster(world, |world, roster| {
-        for ground in &mut roster.grounds {
-            let wanted = added.remove(ground.start.name.as_str()).unwrap_or_default();
-            let file = ground.start.obstacles.len() + ground.start.doors.len();
-            let is_kept = |(entry, obstacle): &(&RosterEntry, &Obstacle)| matches!(&entry.source, ShapeSource::Added(own) if own == *obstacle);
-            let kept = file + ground.entries[file..].iter().zip(&wanted).take_while(is_kept).count();
-            for entry in ground.entries.drain(kept..) {
-                if let ShapeSource::Added(obstacle) = &entry.source {
-                    ground.numbers.remove(&obstacle.name);
-                }
-                ground.is_stale |= entry.now.present;
-                world.despawn(entry.entity);
-            }
-            ground.changed.truncate_before((ground.number as u32, kept as u32));
-            wanted.into_iter().skip(kept - file).for_each(|obstacle| ground.add(world, obstacle));
-        }
-        refresh(world, roster);
-    });
-}
-
-/// Puts every obstacle where a frame has it.
-///
-/// # Errors
-/// [`RestoreError::Obstacle`], with nothing changed, when the frame has an obstacle that the run does not have.
-pub(crate) fn restore(world: &mut World, tick: u64, states: &ObstacleStates) -> Result<(), RestoreError> {
-    with_roster(world, |world, roster| {
-        for state in states.iter() {
-            let ground = roster.grounds.get(state.world as usize);
-            if ground.is_none_or(|g| state.obstacle as usize >= g.entries.len()) {
-                return Err(RestoreError::Obstacle { tick, world: state.world, obstacle: state.obstacle });
-            }
-        }
-        for (ground, number) in roster.grounds.iter_mut().zip(0..) {
-            let own: BTreeMap<usize, &ObstacleState> =
-                states.iter().filter(|s| s.world == number).map(|s| (s.obstacle as usize, s)).collect();
-            let back: Vec<usize> =
-                ground.changed.iter().map(|s| s.obstacle as usize).filter(|n| !own.contains_key(n)).collect();
-            for number in back {
-                let at_first = ground.entries[number].at_first;
-                place(ground, number, at_first);
-            }
-            for (number, state) in own {
-                place(ground, number, Placement { present: state.present, pose: state.pose });
-            }
-        }
-        refresh(world, roster);
-        Ok(())
-    })
-}
-
-/// Gives every world of the run its residents, at its start and as it stands. Obstacles and scenes stay.
-pub(crate) fn set_residents(world: &mut World, models: &[WorldModel]) {
-    with_roster(world, |world, roster| {
-        for (ground, model) in roster.grounds.iter_mut().zip(models).filter(|(g, m)| g.start.robots != m.robots) {
-            let robots = model.robots.clone();
-            ground.start = Arc::new(WorldModel { robots, ..WorldModel::clone(&ground.start) });
-            let index = world.get::<SimulatedWorld>(ground.entity).map_or(0, |w| w.index);
-            if let Ok(mut entity) = world.get_entity_mut(ground.entity) {
-                let model = Arc::clone(&ground.start);
-                entity.insert((SimulatedWorld { index, model }, StandingWorld(ground.standing())));
-            }
-        }
-    });
 }
 
 /// The placement that a change asks for, of the obstacle with which number.

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::dress::undress;
-use super::roster::{WorldObstacles, moved, refresh, with_roster};
+use super::roster::{WorldObstacles, moved, with_roster};
+use super::standing::refresh;
 use crate::simulation::truth::thing::RunThing;
 use crate::simulation::{
     CommandError, CommandRefused, Door, ObstacleOf, ObstacleShape, Obstacles, Placement, SimulatedWorld,

@@ -7,7 +7,7 @@ use bevy::prelude::*;
 
 use super::roster::RunSensor;
 use crate::simulation::RunConfig;
-use crate::simulation::obstacles::roster::set_residents;
+use crate::simulation::obstacles::sync::set_residents;
 use crate::tour::TourConfig;
 use motion_lab_core::sensors::{BeamModel, RangeSensor};
 use motion_lab_core::worlds::{Resident, ResidentSensor};
