@@ -170,6 +170,21 @@ mod tests {
             assert!(scene.pieces.len() <= 202, "{}", scene.pieces.len());
         }
         assert!(most > 140, "{most}: each time everything was made anew");
+        // what is only taken out
+        let mut scene = self::scene();
+        (0..900).for_each(|k| scene.insert_obstacle(ObstacleId(u32::MAX), &disc(k, 2.0)));
+        for there in (0..1000).rev() {
+            scene.remove_obstacle(ObstacleId(there / 2));
+            assert!(scene.pieces.len() <= 2 * there as usize + 1, "{} for {there}", scene.pieces.len());
+        }
+    }
+
+    #[test]
+    fn the_first_piece_of_a_layer_is_taken_out_of_it() {
+        let mut scene = scene();
+        (0..3).for_each(|k| scene.insert_obstacle(ObstacleId(0), &disc(k, 2.0)));
+        scene.remove_obstacle(ObstacleId(2));
+        assert_eq!((layer_count(&scene), scene.pieces.len(), scene.owners[100]), (1, 103, GONE));
     }
 
     #[test]

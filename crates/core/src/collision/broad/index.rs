@@ -149,14 +149,22 @@ mod tests {
             let index = Index::new(&extents);
             assert_eq!(matches!(index.0, BoxStructure::Grid(_)), grid, "{count} in {spread}");
             let tree = Index(BoxStructure::Tree(BoxTree::new(&extents)));
+            // layers, one of which takes the place of others, and a piece that is gone beside each
+            let there = |piece: &usize| piece % 7 != 3;
+            let mut layers = Index::new(&extents[..count / 2]);
+            for (first, end) in [(count / 2, count / 2 + 5), (count / 2 + 5, count), (count / 2 + 5, count)] {
+                layers.put_from(first, &extents[first..end]);
+            }
+            (0..count).filter(|piece| !there(piece)).for_each(|piece| layers.forget(piece));
             for _ in 0..300 {
                 let side = 2.0 * spread as f64;
                 let (x, y) = (draws.uniform(-side, side), draws.uniform(-side, side));
                 let from = extent(x.round(), y.round(), draws.below(4) as f64, 0.0);
                 let exact = |piece: usize| sqrt(from.squared_distance(&extents[piece]));
-                let all = (0..count).map(exact).fold(f64::INFINITY, lesser);
+                let of_all = (0..count).map(exact).fold(f64::INFINITY, lesser);
+                let of_those_there = (0..count).filter(there).map(exact).fold(f64::INFINITY, lesser);
                 for within in [f64::INFINITY, 1.0, 0.0] {
-                    for index in [&index, &tree] {
+                    for (index, all) in [(&index, of_all), (&tree, of_all), (&layers, of_those_there)] {
                         let mut least = within;
                         index.nearest(&from, within, |piece| {
                             least = lesser(exact(piece), least);
@@ -167,14 +175,15 @@ mod tests {
                 }
                 let range = draws.below(3) as f64;
                 let near: Vec<usize> = (0..count).filter(|&p| exact(p) <= greater(range, 0.0)).collect();
-                for index in [&index, &tree] {
+                let near_there: Vec<usize> = near.iter().copied().filter(there).collect();
+                for (index, near) in [(&index, &near), (&tree, &near), (&layers, &near_there)] {
                     let mut seen = Vec::new();
                     index.each_near(&from, range, |piece| {
                         seen.push(piece);
                         false
                     });
                     seen.sort_unstable();
-                    assert_eq!(seen, near, "once each: {from:?} {range}");
+                    assert_eq!(&seen, near, "once each: {from:?} {range}");
                 }
             }
         }
