@@ -9,7 +9,7 @@ use motion_lab_core::num::wrap;
 use motion_lab_core::worlds::{Door, Obstacle, ObstacleKind};
 use motion_lab_sim::recording::Recorder;
 use motion_lab_sim::run::Recipe;
-use motion_lab_sim::simulation::{Roster, StandingWorld, WorldScene};
+use motion_lab_sim::simulation::{App, Roster, SimulationPlugin, StandingWorld, WorldScene, start_run, step};
 
 use super::*;
 
@@ -149,6 +149,27 @@ fn scene_and_world_are_those_of_what_stands_after_every_tick_and_every_seek() {
             run.seek(tick).unwrap();
             assert_agree(&run, &world, &accounts[tick as usize - 1], &format!("seek to {tick}"));
         }
+    }
+}
+
+/// A scene that somebody puts in the place of the run's does not stay, though it has as many obstacles.
+#[test]
+fn a_scene_from_outside_gives_way_to_that_of_what_stands() {
+    let mut app = App::new();
+    app.add_plugins((bevy::time::TimePlugin, SimulationPlugin));
+    start_run(app.world_mut(), apartment(9), (Seed(1), changes(&[(3, close())]))).unwrap();
+    app.update();
+    step(app.world_mut());
+    let entity = app.world().resource::<Roster>().worlds()[0];
+    let standing = |app: &App| Scene::of_world(&app.world().get::<StandingWorld>(entity).unwrap().0);
+    let far = standing(&app).grown(0.25);
+    let before: Vec<_> = standing(&app).pieces().map(|(_, piece)| piece.clone()).collect();
+    app.world_mut().entity_mut(entity).insert(WorldScene(Arc::new(far)));
+    for more in [0, 1, 1] {
+        step(app.world_mut());
+        let scene = &app.world().get::<WorldScene>(entity).unwrap().0;
+        let pieces: Vec<_> = scene.pieces().map(|(_, piece)| piece.clone()).collect();
+        assert_eq!((pieces.len(), &pieces[..before.len()]), (before.len() + more, &before[..]));
     }
 }
 
