@@ -301,7 +301,8 @@ impl PlanState {
     /// The run with this configuration plays the path by these inputs: it is drawn over its world, but for the start,
     /// where the robot is.
     pub fn is_played_by(&mut self, config: &Arc<TourConfig>, inputs: Vec<Event>) {
-        let shown = |item: &Item| !item.id.starts_with("start") && item.id != "growth";
+        let left_out = ["start", "growth", "rival"];
+        let shown = |item: &Item| !left_out.iter().any(|id| item.id.starts_with(id));
         let items = self.over.items.iter().filter(|item| shown(item)).cloned();
         let picture = Picture::new("played path", self.over.bounds).with(items);
         self.played = Some((Arc::clone(config), Arc::new(picture), inputs));

@@ -338,6 +338,11 @@ fn planners_race_as_each_would_go_alone_until_the_last_has_its_path() {
         let others = alone.iter().enumerate().filter(|(other, _)| *other != i).map(|(_, (.., path))| path.clone());
         assert_eq!(race.drawn().rivals, others.collect::<Vec<_>>(), "the others' paths stay in sight");
     }
+    // a run that plays the path of the one in front shows it alone
+    race.is_played_by(&Arc::new(motion_lab_sim::tour::TourConfig::default()), vec![]);
+    let played = race.over_world("Workbench").expect("it is drawn there");
+    let has = |id: &str| played.items.iter().any(|item| item.id.starts_with(id));
+    assert_eq!(["path", "rival", "growth"].map(has), [true, false, false]);
     // played on, only the one that improves its path does anything
     race.step();
     let after: Vec<u64> = race.racers.iter().map(|racer| racer.effort().iterations).collect();
