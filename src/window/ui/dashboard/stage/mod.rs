@@ -191,8 +191,8 @@ impl Stage<'_> {
         response.clicked()
     }
 
-    /// Shows one cockpit in a low room: its world as high as the room, under it, where there is room, its configuration,
-    /// and its words at the right of both.
+    /// Shows one cockpit in a low room: its world as high as the room, under it, where there is room, its space, and at
+    /// the right of both its words.
     fn lying(&self, ui: &mut Ui, state: &mut UiState, commands: &mut Vec<Command>) {
         let Some((_, cockpit)) = front(&self.model.cockpits, state) else { return };
         let room = ui.available_rect_before_wrap();
