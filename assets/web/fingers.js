@@ -20,9 +20,14 @@ function layout(canvas, widgets) {
   const placed = widgets.filter((w) => w.place);
   const isLarge = ({ place: [, , width, height] }) => width * height > 0.08 * canvas.clientWidth * canvas.clientHeight;
   const drawings = placed.filter((w) => ["handle", "button", "image"].includes(w.kind) && isLarge(w));
-  const isStrip = ({ kind, name }) => (kind === "slider" && /^time line/.test(name ?? "")) || /^\d+ contacts? and /.test(name ?? "");
-  const foot = Math.min(canvas.clientHeight, ...placed.filter(isStrip).map((w) => w.place[1]));
   const [first, last] = [placed.indexOf(drawings[0]), placed.indexOf(drawings.at(-1))];
+  const under = Math.max(...drawings.map(bottomOf));
+  const leftmost = Math.min(...drawings.map((w) => w.place[0]));
+  // the time line, and under the drawings the sentence with its links, which is told before them, as the rail beside them is
+  const isSentence = ({ place: [left, top, width] }, i) => i < first && top >= under && left + width > leftmost;
+  const isTime = ({ kind, name }) => (kind === "slider" && /^time line/.test(name ?? "")) || /^\d+ contacts? and /.test(name ?? "");
+  const isStrip = (w, i) => isTime(w) || isSentence(w, i);
+  const foot = Math.min(canvas.clientHeight, ...placed.filter(isStrip).map((w) => w.place[1]));
   // the canvas tells rail and strip first, and the words of a drawing after it; a dot on a drawing is a handle
   const isWords = (w, i) => !drawings.includes(w) && w.kind !== "handle" && !(i < first && w.place[1] >= foot);
   const after = placed.filter((w, i) => i > last && isWords(w, i));
