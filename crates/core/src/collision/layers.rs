@@ -49,7 +49,7 @@ impl<'a> WholeView<'a> {
     }
 }
 
-/// A layer never has fewer pieces than this where there are so many: an index of so few is a list.
+/// The least number of pieces of a layer that others follow: an index of fewer is a list.
 const LEAST: usize = 64;
 
 impl SceneLayers {

@@ -126,7 +126,7 @@ fn edge<R: Robot>(checker: &Checker<R>, a: &R::Configuration, b: &R::Configurati
     format!("{verdict:?} {:?} {is_free} {:?} {marched:?}", checker.edge(a, b), certificate.steps())
 }
 
-/// Changes a scene this often, and compares all answers after every so many changes.
+/// Makes `changes` changes of a scene, and compares all answers after each `every` of them.
 fn survey(name: &str, at_first: usize, changes: usize, every: usize, puts_in: f64) -> Met {
     let mut draws = Stream::new(Seed(47), name);
     let mut list: Vec<Obstacle> = (0..at_first).map(|k| obstacle(k, &mut draws)).collect();

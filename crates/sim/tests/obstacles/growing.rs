@@ -194,7 +194,7 @@ fn what_somebody_keeps_of_an_earlier_tick_stays_as_it_was() {
     }
 }
 
-/// The bytes that are allocated while so many posts are added, four in each tick.
+/// The bytes allocated while this number of posts is added, four in each tick.
 fn allocated(count: usize) -> u64 {
     let add = |k: usize| WorldChange::Add {
         name: format!("added {k}"),

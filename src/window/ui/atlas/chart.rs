@@ -5,6 +5,7 @@ use bevy_egui::egui::{Rect, Ui};
 
 use super::atlas_space::AtlasSpace;
 use super::state::Mode;
+use crate::window::ui::cspace::chart::meant;
 use crate::window::ui::paint::sheet::{split_chart, unscaled_sheet};
 use crate::window::ui::{AtlasState, FrameColours};
 use motion_lab_core::cspace::{Overlay, overlay_items};
@@ -30,8 +31,8 @@ pub fn split(ui: &Ui, [paper, beside]: [Rect; 2], look: &FrameColours, atlas: &m
     split_chart(paper, beside, atlas.space().map(|space| &**space.cells().picture()), ABOVE, look)
 }
 
-/// Shows the chart. Where a click puts robots, the point can be dragged: the robot goes there when
-/// it is let go, if it is free. Returns whether it was put somewhere.
+/// Shows the chart. Where a click puts robots, the point can be dragged: the robot goes there when it is
+/// let go, if it is free. Returns whether it was put somewhere.
 pub fn chart(ui: &mut Ui, paper: Rect, look: &FrameColours, atlas: &mut AtlasState) -> bool {
     let index = atlas.robot;
     let Some((space, robot)) = atlas.space().zip(atlas.shown().robots().get(index)) else { return false };
@@ -42,9 +43,7 @@ pub fn chart(ui: &mut Ui, paper: Rect, look: &FrameColours, atlas: &mut AtlasSta
     let moving = Picture::new("configuration", still.bounds).with(overlay_items(cells.map().slice(), &overlay));
     let spoken = format!("configuration space of {}. It is the point {}", robot.name, robot.q);
     let on = unscaled_sheet(ui, paper, spoken, still, &moving, look);
-    let held = if cells.map().slice().wraps() { on.held_anywhere() } else { on.held() };
-    let Some(to) = held.filter(|_| is_put) else { return false };
-    let (q, _) = cells.configuration_at(to);
+    let Some((q, _)) = meant(ui, &on, cells).filter(|_| is_put) else { return false };
     let done = on.response.clicked() || on.response.drag_stopped();
     atlas.ask_for(q, done);
     done && atlas.refusal().is_none()

@@ -6,12 +6,13 @@ use bevy_egui::egui::{Rect, Ui};
 
 use super::torus::torus;
 use crate::window::ui::paint::canvas;
-use crate::window::ui::paint::sheet::{sheet, unscaled_sheet};
+use crate::window::ui::paint::sheet::{ScreenSheet, sheet, unscaled_sheet};
 use crate::window::ui::{FrameColours, UiState};
+use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::cspace::overlay_items;
 use motion_lab_core::geometry::Point2;
 use motion_lab_core::picture::Picture;
-use motion_lab_sim::lens::remember_in;
+use motion_lab_sim::lens::{SpaceCells, remember_in};
 use motion_lab_sim::manifest::HintTask;
 
 /// Radius of the robot's point with its ring, points.
@@ -56,14 +57,7 @@ fn space(ui: &mut Ui, paper: Rect, named: ChartNames, look: &FrameColours, state
     let spoken = format!("configuration space. The robot is the point {}{blocked}", anatomy.q());
     let show = if named == ChartNames::Shown { sheet } else { unscaled_sheet };
     let on = show(ui, paper, spoken, &still, &moving, look);
-    // on a torus the way beyond an edge goes on at the opposite one, however far
-    let held = if slice.wraps() { on.held_anywhere() } else { on.held() };
-    // who presses among the figures at the axes means no point
-    let from = ui.input(|i| i.pointer.press_origin());
-    let from = from.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
-    let is_on_chart = from.is_some_and(|p| cells.is_on_chart(p, POINT / on.fit.px_per_metre()));
-    let is_meant = is_on_chart && (on.response.dragged() || on.response.clicked());
-    if let Some((q, is_over_edge)) = held.filter(|_| is_meant).map(|to| cells.configuration_at(to)) {
+    if let Some((q, is_over_edge)) = meant(ui, &on, cells) {
         // a point of the slice is a configuration of the robot
         if state.anatomy.anatomy.set_q(q).is_ok() {
             remember(state);
@@ -71,6 +65,19 @@ fn space(ui: &mut Ui, paper: Rect, named: ChartNames, look: &FrameColours, state
             state.did.extend(is_over_edge.then_some(HintTask::OverEdge));
         }
     }
+}
+
+/// The configuration that the pointer means on a chart of these cells, while it is held or where it is let go, and
+/// whether the way there led over an edge of a torus.
+pub fn meant(ui: &Ui, on: &ScreenSheet, cells: &SpaceCells) -> Option<(AnyConfiguration, bool)> {
+    // on a torus the way beyond an edge goes on at the opposite one, however far
+    let held = if cells.map().slice().wraps() { on.held_anywhere() } else { on.held() };
+    // who presses among the figures at the axes means no point
+    let from = ui.input(|i| i.pointer.press_origin());
+    let from = from.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
+    let is_on_chart = from.is_some_and(|p| cells.is_on_chart(p, POINT / on.fit.px_per_metre()));
+    let is_held = on.response.dragged() || on.response.drag_stopped() || on.response.clicked();
+    held.filter(|_| is_on_chart && is_held).map(|to| cells.configuration_at(to))
 }
 
 /// Remembers where the robot of Query and Space is now.

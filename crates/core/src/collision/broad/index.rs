@@ -43,22 +43,20 @@ impl Index {
 
     /// Calls `look` with every piece that may be as near as the least distance so far, which `look` returns, until no
     /// other can be. `within` is the least distance before the first call.
-    pub fn nearest(&self, from: &Aabb, within: f64, look: impl FnMut(usize) -> f64) {
+    pub fn nearest(&self, from: &Aabb, within: f64, mut look: impl FnMut(usize) -> f64) {
         match &self.0 {
             BoxStructure::Few(boxes) => boxes.nearest(from, within, look),
             BoxStructure::Grid(grid) => grid.nearest(from, within, look),
-            BoxStructure::Tree(tree) => tree.nearest(from, within, look),
-            BoxStructure::Layers(layers) => layers.nearest(from, within, &mut { look }),
+            rare => rare.nearest(from, within, &mut look),
         }
     }
 
     /// Calls `visit` with each piece whose box is at most `range` from this box, until it returns true.
-    pub fn each_near(&self, from: &Aabb, range: f64, visit: impl FnMut(usize) -> bool) {
+    pub fn each_near(&self, from: &Aabb, range: f64, mut visit: impl FnMut(usize) -> bool) {
         match &self.0 {
             BoxStructure::Few(boxes) => boxes.each_near(from, range, visit),
             BoxStructure::Grid(grid) => grid.each_near(from, range, visit),
-            BoxStructure::Tree(tree) => tree.each_near(from, range, visit),
-            BoxStructure::Layers(layers) => layers.each_near(from, range, &mut { visit }),
+            rare => rare.each_near(from, range, &mut visit),
         }
     }
 
@@ -89,12 +87,33 @@ impl Index {
     }
 }
 
-// the closures are not generic here, because each layer would make another of them without end
+/// The same walks, compiled once for all questions: a tree and layers, which few scenes have, take no code of their own
+/// in each.
+impl BoxStructure {
+    fn nearest(&self, from: &Aabb, within: f64, look: &mut dyn FnMut(usize) -> f64) {
+        match self {
+            BoxStructure::Few(boxes) => boxes.nearest(from, within, look),
+            BoxStructure::Grid(grid) => grid.nearest(from, within, look),
+            BoxStructure::Tree(tree) => tree.nearest(from, within, look),
+            BoxStructure::Layers(layers) => layers.nearest(from, within, look),
+        }
+    }
+
+    fn each_near(&self, from: &Aabb, range: f64, visit: &mut dyn FnMut(usize) -> bool) {
+        match self {
+            BoxStructure::Few(boxes) => boxes.each_near(from, range, visit),
+            BoxStructure::Grid(grid) => grid.each_near(from, range, visit),
+            BoxStructure::Tree(tree) => tree.each_near(from, range, visit),
+            BoxStructure::Layers(layers) => layers.each_near(from, range, visit),
+        }
+    }
+}
+
 impl IndexLayers {
     fn nearest(&self, from: &Aabb, within: f64, look: &mut dyn FnMut(usize) -> f64) {
         let mut least = within;
         for IndexLayer { first, index } in &self.layers {
-            index.nearest(from, least, |piece| {
+            index.0.nearest(from, least, &mut |piece| {
                 if !self.is_gone(first + piece) {
                     least = look(first + piece);
                 }
@@ -106,7 +125,7 @@ impl IndexLayers {
     fn each_near(&self, from: &Aabb, range: f64, visit: &mut dyn FnMut(usize) -> bool) {
         let mut found = false;
         for IndexLayer { first, index } in &self.layers {
-            index.each_near(from, range, |piece| {
+            index.0.each_near(from, range, &mut |piece| {
                 found = found || (!self.is_gone(first + piece) && visit(first + piece));
                 found
             });
