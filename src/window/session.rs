@@ -26,9 +26,9 @@ use motion_lab_sim::manifest::Widget;
 use motion_lab_sim::plans::Planners;
 use motion_lab_sim::run::{DT, Recipe};
 use motion_lab_sim::simulation::{
-    CommandRefused, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster, RunCommand,
-    RunConfig, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, checkpoint, sensors_of, settle,
-    start_recipe, start_run, undoes, view_of,
+    CommandRefused, Happening, History, HistoryPlugin, PendingInput, Playback, RobotKinds, RobotView, Roster,
+    RunCommand, RunConfig, SensorRefused, SimulationPlugin, StandingWorld, Transport, Undo, checkpoint, sensors_of,
+    settle, start_recipe, start_run, undoes, view_of,
 };
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 use pending::{Said, scene_of};
@@ -190,7 +190,7 @@ pub fn gather(world: &mut World) {
         looping,
         behind: world.resource::<Pace>().words(speed).filter(|_| playing),
         next_contact: history.next_contact(tick),
-        has_contact: why::contact_at(history, tick).is_some(),
+        has_contact: history.marks().iter().any(|mark| mark.what == Happening::Contact),
         can_undo: undoes(world),
         can_redo: undo.can_redo(),
     };

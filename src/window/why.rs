@@ -5,7 +5,8 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::background;
-use crate::window::ui::{Interface, Notice, ScriptMark};
+use super::session::ShownDashboard;
+use crate::window::ui::{Interface, Notice, ScriptMark, front};
 use motion_lab_sim::avoid::{AddKinds, EvasionSet, Explaining};
 use motion_lab_sim::run::{Recipe, seconds};
 use motion_lab_sim::simulation::{
@@ -13,18 +14,28 @@ use motion_lab_sim::simulation::{
 };
 use motion_lab_sim::tour::TourConfig;
 
-/// The contact that is asked about when the run stands at a tick: the last that has begun, else the next.
-pub fn contact_at(history: &History, tick: u64) -> Option<TickMark> {
+/// The contact that is asked about when a run stands at a tick: the last that has begun of a robot that is in front,
+/// else of any robot, else the next.
+fn contact_at(history: &History, tick: u64, is_in_front: impl Fn(u32) -> bool) -> Option<TickMark> {
     let marks = history.marks();
     let (before, after) = marks.split_at(marks.partition_point(|mark| mark.tick <= tick));
     let is_contact = |mark: &&TickMark| mark.what == Happening::Contact;
-    before.iter().rev().find(is_contact).or_else(|| after.iter().find(is_contact)).copied()
+    let begun = || before.iter().rev().filter(is_contact);
+    let found = begun().find(|mark| is_in_front(mark.robot)).or_else(|| begun().next());
+    found.or_else(|| after.iter().find(is_contact)).copied()
+}
+
+/// The contact that is asked about now: of the world in front before those of the others.
+fn contact_now(world: &World) -> Option<TickMark> {
+    let cockpits = &world.resource::<ShownDashboard>().0.cockpits;
+    let in_front = front(cockpits, &world.resource::<Interface>().0).map(|(_, cockpit)| &cockpit.robots);
+    let is_in_front = |id| in_front.is_some_and(|robots| robots.iter().any(|robot| robot.id == id));
+    contact_at(world.resource::<History>(), world.resource::<Transport>().tick(), is_in_front)
 }
 
 /// Plays the way out of the contact at the present tick, where that was explained; else begins to explain it.
 pub fn ask(world: &mut World) {
-    let tick = world.resource::<Transport>().tick();
-    let here = contact_at(world.resource::<History>(), tick).map(|mark| (mark.robot, mark.tick));
+    let here = contact_now(world).map(|mark| (mark.robot, mark.tick));
     let known = world.resource::<Interface>().0.chance.as_ref().filter(|chance| chance.way_out.is_some());
     if known.is_some_and(|chance| Some((chance.robot, chance.contact)) == here) {
         play_way_out(world);
@@ -36,9 +47,8 @@ pub fn ask(world: &mut World) {
 /// Begins to explain the contact at the present tick, in the background.
 pub fn explain(world: &mut World) {
     background::stop(world);
-    let (tick, frontier) = (world.resource::<Transport>().tick(), world.resource::<Transport>().frontier());
-    let mark = contact_at(world.resource::<History>(), tick);
-    let (Some(mark), Some(now)) = (mark, recipe(world)) else {
+    let frontier = world.resource::<Transport>().frontier();
+    let (Some(mark), Some(now)) = (contact_now(world), recipe(world)) else {
         return say(world, "No robot has touched anything yet.".into(), false);
     };
     let Some(robot) = now.config.robot_names().nth(mark.robot as usize).map(str::to_owned) else { return };

@@ -116,7 +116,7 @@ fn names_come_on_demand_and_the_grid_at_any_resolution() {
     click(&mut harness, "Atlas");
     let scale = 60.0;
     assert!(atlas(&harness).labels(scale).iter().any(|i| i.name == "B's round table"));
-    click(&mut harness, "names of everything");
+    click(&mut harness, "names");
     assert!(harness.state().app.world().resource::<Interface>().0.settings.labels);
     click(&mut harness, "Measure");
     let slider = harness.get_by_role_and_label(egui::accesskit::Role::Slider, "cell size in metres").rect();

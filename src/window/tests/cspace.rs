@@ -149,3 +149,20 @@ fn a_press_beside_the_chart_takes_no_point() {
     click_at(&mut harness, on_chart);
     assert_ne!(anatomy(&harness).q(), q);
 }
+
+#[test]
+fn the_key_names_both_arms_only_of_an_arm_that_has_them() {
+    let mut harness = lab(WIDE);
+    click(&mut harness, "Space");
+    for (name, has_two) in
+        [("Reach, three links", false), ("Rusty", false), ("Reach, 3 cm links", true), ("Hitch", false)]
+    {
+        let robot = Anatomy::choices().into_iter().find(|(choice, _)| *choice == name).unwrap().1;
+        let state = &mut interface_mut(&mut harness).anatomy;
+        state.anatomy = state.anatomy.at_home(robot);
+        harness.run_steps(3);
+        let named = |words: &str| harness.query_by_label_contains(words).is_some();
+        assert_eq!(named("colour key: both arms with this tip"), has_two, "{name}");
+        assert!(named("colour key: robot"));
+    }
+}

@@ -98,12 +98,12 @@ fn the_atlas_puts_a_robot_of_the_run_under_way_and_says_why_not() {
     // in the gap of door B: free in the atlas's own world, not in the run, where the door is closed
     let at = on_atlas(&harness, [6.0, 4.75]);
     click_at(&mut harness, at);
-    click(&mut harness, "Put it there in the run");
+    click(&mut harness, "Put it in the run");
     assert!(notice(&harness).contains("door B"), "{}", notice(&harness));
     assert!(events(&harness).is_empty());
     let at = on_atlas(&harness, [6.0, 4.0]);
     click_at(&mut harness, at);
-    click(&mut harness, "Put it there in the run");
+    click(&mut harness, "Put it in the run");
     let [event] = &events(&harness)[..] else { panic!("one event") };
     let RobotInput::Teleport(to) = &event.input else { panic!("a teleport") };
     assert!((to[0].value() - 6.0).abs() < 0.02 && (to[1].value() - 4.0).abs() < 0.02, "{to:?}");

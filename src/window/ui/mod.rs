@@ -40,6 +40,7 @@ pub(crate) use dashboard::blend::blend;
 pub(crate) use dashboard::goal::ParkingExercise;
 pub(crate) use dashboard::hand::arm::{joints, turned};
 pub(crate) use dashboard::hand::held_tow::HeldTow;
+pub(crate) use dashboard::stage::front;
 pub(crate) use dashboard::twin_state::AskedTwin;
 pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard, ShownClearance};
 pub(crate) use lab::lab;

@@ -28,12 +28,30 @@ impl Anatomy {
 
 #[cfg(test)]
 mod tests {
+    use super::super::WorldSource;
     use super::*;
+    use motion_lab_core::configuration::{AnyConfiguration, T2};
     use motion_lab_core::picture::Drawing;
+    use motion_lab_core::worlds::World;
 
     /// Side of the view, pixels, and the radius of a ring with its line.
     const SIDE: f64 = 208.0;
     const RING: f64 = 4.5;
+
+    #[test]
+    fn what_is_nearest_is_in_the_middle() {
+        // the arm lies along the x axis: its second link is 0.1 m above the one box, its first 0.05 m below the other
+        let world = "World(version: 1, name: \"bench\", bounds: (min: (-3, -3), max: (3, 3)), obstacles: [
+            (name: \"far\", shape: Box(min: (1.4, -0.5), max: (1.6, -0.1))),
+            (name: \"near\", shape: Box(min: (0.4, 0.05), max: (0.6, 0.5)))])";
+        let world = World::parse("bench.ron", world).unwrap();
+        let mut anatomy = Anatomy::default().with_tab(Tab::Distance).in_world(world, WorldSource::Unsaved);
+        anatomy.set_q(AnyConfiguration::T2(T2::new(0.0, 0.0))).unwrap();
+        let Aabb { min, max } = anatomy.close_up().unwrap().bounds;
+        // six times 0.05 m is less than a twelfth of the world's 6 m
+        assert!(min.x >= 0.4 - 0.25 - 1e-9 && max.x <= 0.6 + 0.25 + 1e-9, "{min} to {max}");
+        assert!((0.5 * (min.y + max.y) - 0.025).abs() < 1e-9 && (max.y - min.y - 0.5).abs() < 1e-9, "{min} to {max}");
+    }
 
     #[test]
     fn plates_keep_off_the_rings_and_off_what_is_measured() {

@@ -47,6 +47,9 @@ pub struct KeyText {
     role: String,
     /// The meaning of the role in this widget.
     pub text: String,
+    /// Whether it is about the arm with two links alone.
+    #[serde(default)]
+    pub arm: bool,
 }
 
 impl WidgetText {

@@ -25,7 +25,7 @@ pub struct Drawn {
     pub sensed: Option<Sensed>,
     /// What parts the start from the goal, where that is proven.
     pub barrier: Option<DrawnBarrier>,
-    /// The paths of the other planners of a race.
+    /// The paths of the other planners of a race, in the order of its table; empty of one that has none yet.
     pub rivals: Vec<Vec<AnyConfiguration>>,
 }
 

@@ -25,7 +25,7 @@ pub fn workspace_items(robot: &AnyRobot, drawn: &Drawn) -> Vec<Item> {
     let [start, goal] = drawn.ends;
     items.extend(footprint("goal", "the goal", &robot.footprint(&goal), Role::Goal, 0.4));
     items.extend(faced("start", "the start", robot, &start));
-    items.extend(rivals(drawn.rivals.iter().map(|path| vec![way(path)])));
+    items.extend(rivals(drawn, |path| vec![way(path)]));
     if !drawn.path.is_empty() {
         items.push(path(vec![way(&drawn.path)]));
     }
@@ -144,7 +144,7 @@ pub fn space_items(slice: &Slice, drawn: &Drawn) -> Vec<Item> {
     let lines = |motion: &Vec<AnyConfiguration>| lines_through(slice, motion).unwrap_or_default();
     let mut items: Vec<Item> = drawn.barrier.iter().map(|barrier| barrier_in(slice, barrier)).collect();
     items.push(growth(drawn.edges.iter().flat_map(lines).collect()));
-    items.extend(rivals(drawn.rivals.iter().map(lines)));
+    items.extend(rivals(drawn, lines));
     if !drawn.path.is_empty() {
         items.push(path(lines(&drawn.path)));
     }
@@ -175,14 +175,14 @@ fn path(lines: Vec<Vec<Point2>>) -> Item {
     Item::new("path", "the path", Role::Path, drawing).stroked(Line::solid(2.5))
 }
 
-/// The paths of the other planners of a race: the first dashed, the others dotted.
-fn rivals(ways: impl Iterator<Item = Vec<Vec<Point2>>>) -> Vec<Item> {
-    let item = |(i, lines): (usize, Vec<Vec<Point2>>)| {
-        let drawing = Drawing::Region { pieces: Vec::new(), outline: lines };
+/// The paths of the other planners of a race: of the first of them dashed, of the others dotted, whoever has one yet.
+fn rivals(drawn: &Drawn, lines: impl Fn(&Vec<AnyConfiguration>) -> Vec<Vec<Point2>>) -> Vec<Item> {
+    let item = |(i, path): (usize, &Vec<AnyConfiguration>)| {
+        let drawing = Drawing::Region { pieces: Vec::new(), outline: lines(path) };
         let line = Line::solid(1.8).dashed(if i == 0 { Dash::Dashed } else { Dash::Dotted });
         Item::new(format!("rival/{i}"), "the path of another planner", Role::Path, drawing).stroked(line)
     };
-    ways.enumerate().map(item).collect()
+    drawn.rivals.iter().enumerate().filter(|(_, path)| !path.is_empty()).map(item).collect()
 }
 
 fn refused(lines: Vec<Vec<Point2>>) -> Item {
@@ -217,6 +217,28 @@ mod tests {
             });
             let line = vec![vec![Point2::new(0.0, 0.0), Point2::new(1.0, 0.5)]];
             assert_eq!(outlines.collect::<Vec<_>>(), if way.is_empty() { vec![] } else { vec![line] });
+        }
+    }
+
+    #[test]
+    fn a_rival_keeps_its_line_whoever_has_a_path() {
+        let at = |q: [f64; 2]| AnyRobot::of_kind("reach", &q).unwrap();
+        let (arm, start) = at([0.0, 0.0]);
+        let way = vec![start, at([1.0, 0.5]).1];
+        let slice = Slice::through(&Checker::new(Scene::workbench(), arm), &start).unwrap();
+        for (have, dashes) in [
+            ([true, true], vec![Dash::Dashed, Dash::Dotted]),
+            ([true, false], vec![Dash::Dashed]),
+            ([false, true], vec![Dash::Dotted]),
+            ([false, false], vec![]),
+        ] {
+            let rivals = have.map(|has| if has { way.clone() } else { vec![] }).into();
+            let drawn = Drawn { rivals, ..Drawn::of_ends([start, way[1]]) };
+            for items in [workspace_items(&arm, &drawn), space_items(&slice, &drawn)] {
+                let drawn = items.iter().filter(|item| item.id.starts_with("rival/"));
+                let drawn: Vec<Dash> = drawn.filter_map(|item| item.line.map(|line| line.dash)).collect();
+                assert_eq!(drawn, dashes, "{have:?}");
+            }
         }
     }
 

@@ -226,7 +226,7 @@ fn arrows_move_what_is_in_front_and_turn_it_with_shift() {
     let core = atlas(&harness).world().obstacle("B's round table").unwrap().placed().next().unwrap().core()[0];
     assert_eq!([core.x, core.y], [6.0, 6.75]);
     // also an arrow that comes in the first frame in which the paper has the focus, and the ones after it
-    harness.get_by_label("names of everything").focus();
+    harness.get_by_label("names").focus();
     harness.run_steps(2);
     harness.get_by_label_contains("World Apartment").focus();
     harness.step();

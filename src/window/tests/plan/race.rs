@@ -14,14 +14,23 @@ fn alone(name: PlannerName) -> String {
     format!("{}: iterations {iterations}, edges {edges}, length {:.3}, clearance", name.title(), lengths.length)
 }
 
+/// Lets a planner join by the menu.
+fn join(harness: &mut Harness<'_, Lab>, name: PlannerName) {
+    harness.get_by_label("Race another").click_accesskit();
+    harness.run_steps(3);
+    harness.query_all_by_label(name.title()).last().expect("in the menu").click_accesskit();
+    harness.run_steps(3);
+    assert_eq!(plan(harness).racing().last(), Some(name));
+}
+
 #[test]
 fn a_race_is_read_off_its_table_and_the_planner_in_front_is_the_one_whose_path_is_kept() {
     for size in [WIDE, PHONE] {
         let mut harness = planned(size);
         assert!(harness.query_by_label_contains("iterations 0, edges 0").is_none(), "one planner has no table");
-        for _ in 0..2 {
-            harness.get_by_label("Race another").click_accesskit();
-            harness.run_steps(3);
+        // not in the order of the menu
+        for name in [PlannerName::RrtStar, PlannerName::Rrt] {
+            join(&mut harness, name);
         }
         assert!(harness.query_by_label("Race another").is_none(), "three at most");
         let racing: Vec<PlannerName> = plan(&harness).racing().collect();
@@ -42,8 +51,7 @@ fn a_race_is_read_off_its_table_and_the_planner_in_front_is_the_one_whose_path_i
         let left = plan(&harness);
         assert!(left.lengths().is_some() && left.drawn().rivals.is_empty(), "it keeps its path, alone");
         // who joins grows alone, and the first keeps what it has
-        harness.get_by_label("Race another").click_accesskit();
-        harness.run_steps(3);
+        join(&mut harness, racing[0]);
         assert!(
             plan(&harness).effort().iterations == 0 && plan(&harness).drawn().rivals == [left.drawn().path.clone()]
         );

@@ -3,7 +3,7 @@
 use super::super::*;
 use motion_lab_sim::avoid::{EvasionSet, contact_episodes, explain};
 use motion_lab_sim::run::{Event as RunEvent, Recipe, seconds};
-use motion_lab_sim::simulation::start_run;
+use motion_lab_sim::simulation::{Happening, TickMark, start_run};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 /// A lab whose rover was driven into a wall, paused some ticks after it, and the first tick in contact.
@@ -126,4 +126,30 @@ fn what_is_known_of_a_contact_goes_with_its_run_and_can_be_put_away() {
     harness.key_press(Key::W);
     harness.run_steps(2);
     assert_eq!(interface(&harness).notice().unwrap().text, "No robot has touched anything yet.");
+}
+
+#[test]
+fn a_contact_of_the_world_in_front_is_explained_before_later_ones_elsewhere() {
+    let (mut harness, first, _) = crashed(WIDE);
+    // the arm meets its post after the rover has met the wall
+    let later = |harness: &Harness<'_, Lab>| {
+        let marks = harness.state().app.world().resource::<History>().marks().to_vec();
+        let contact = |mark: &&TickMark| mark.robot == 1 && mark.what == Happening::Contact && mark.tick > first;
+        marks.iter().find(contact).map(|mark| mark.tick)
+    };
+    harness.state_mut().app.world_mut().resource_mut::<Transport>().playback = Playback::Playing;
+    while later(&harness).is_none() {
+        harness.step();
+    }
+    let later = later(&harness).unwrap();
+    pause(&mut harness);
+    // asked twice about one contact, the lab would play the way out
+    for (front, asked) in [(2, later), (0, first), (1, later)] {
+        interface_mut(&mut harness).settings.world = front;
+        harness.run_steps(3);
+        harness.key_press(Key::W);
+        harness.run_steps(2);
+        wait(&mut harness);
+        assert_eq!(interface(&harness).chance.as_ref().map(|chance| chance.contact), Some(asked), "world {front}");
+    }
 }

@@ -120,7 +120,7 @@ fn what_was_asked_about_is_put_there_in_the_run_and_undone() {
     let before = harness.state().robot(0).coordinates;
     interface_mut(&mut harness).anatomy.anatomy.set_coordinate(0, before[0] + 0.25);
     harness.run_steps(2);
-    click(&mut harness, "Put it there in the run");
+    click(&mut harness, "Put it in the run");
     click(&mut harness, "Drive");
     click(&mut harness, "Step");
     let there = harness.state().robot(0).coordinates;
@@ -140,12 +140,12 @@ fn an_arm_of_more_links_is_not_put_in_the_run() {
     interface_mut(&mut harness).anatomy.set(three);
     harness.run_steps(2);
     let is_disabled =
-        |harness: &Harness<'_, Lab>| harness.get_by_label("Put it there in the run").accesskit_node().is_disabled();
+        |harness: &Harness<'_, Lab>| harness.get_by_label("Put it in the run").accesskit_node().is_disabled();
     assert!(is_disabled(&harness), "{:?}", interface(&harness).notice());
     // the book's own pose of two links is put, in units of 2^-20 rad
     click(&mut harness, "Reset");
     assert!(!is_disabled(&harness));
-    click(&mut harness, "Put it there in the run");
+    click(&mut harness, "Put it in the run");
     let [event] = &harness.state().script().events[..] else { panic!("one event") };
     let RobotInput::Teleport(to) = &event.input else { panic!("a teleport") };
     let to: Vec<f64> = to.iter().map(|angle| angle.value()).collect();

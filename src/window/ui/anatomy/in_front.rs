@@ -137,7 +137,7 @@ impl<'a> PutInRun<'a> {
         let is_other = |c: &Cockpit| c.robots.iter().any(|r| r.name == self.robot && r.coordinates.len() != own.len());
         let lives_there = |c: &Cockpit| c.world.name == self.world && c.has(self.robot) && !is_other(c);
         let is_there = model.cockpits.iter().any(lives_there);
-        let button = LabButton::new("Put it there in the run").enabled(is_there).show(ui, look);
+        let button = LabButton::new("Put it in the run").enabled(is_there).show(ui, look);
         let words =
             if is_there { "At the next tick; Ctrl+Z undoes it" } else { "It does not live in the run under way" };
         if button.on_hover_text(words).clicked() {

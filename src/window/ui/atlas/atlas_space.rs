@@ -51,3 +51,36 @@ impl AtlasSpace {
         self.cells.refine(BUDGET)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use motion_lab_core::cspace::CellState;
+    use motion_lab_core::picture::world as picture_of;
+    use motion_lab_core::worlds::World;
+
+    use super::*;
+
+    #[test]
+    fn the_other_robots_are_in_the_way_and_what_is_known_goes_when_one_moves() {
+        let rover = |name: &str, x: f64| format!("(name: \"{name}\", kind: \"rusty\", start: [{x}, 2, 0])");
+        let world = format!(
+            "World(version: 1, name: \"hall\", bounds: (min: (0, 0), max: (8, 4)), obstacles: [], robots: [{}, {}])",
+            rover("one", 2.0),
+            rover("other", 6.0)
+        );
+        let mut atlas = Atlas::new(World::parse("hall.ron", &world).unwrap());
+        let still = Arc::new(picture_of(atlas.world()));
+        let states = |atlas: &Atlas, known: Option<AtlasSpace>| {
+            let mut space = AtlasSpace::of(known, atlas, 0, &still).unwrap();
+            while space.refine() {}
+            let states = [[2.0, 2.0], [6.0, 2.0], [4.0, 3.0]].map(|at| space.cells().map().state(at));
+            (states, space)
+        };
+        let (free, blocked) = (CellState::Free, CellState::Blocked);
+        let (now, space) = states(&atlas, None);
+        assert_eq!(now, [free, blocked, free], "where the robot itself stands it is free");
+        let to = atlas.robots()[1].q.with(0, 4.0).with(1, 3.0);
+        assert_eq!(atlas.teleport(1, to), Some(Ok(())));
+        assert_eq!(states(&atlas, Some(space)).0, [free, free, blocked]);
+    }
+}

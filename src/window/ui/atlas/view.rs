@@ -274,7 +274,7 @@ fn beside_the_paper(
             }
         }
     });
-    ui.checkbox(&mut state.settings.labels, "names of everything");
+    ui.checkbox(&mut state.settings.labels, "names");
     match state.atlas.mode {
         Mode::Put => {
             put_panel(ui, state);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Rect, Ui};
+use bevy_egui::egui::{Pos2, Rect, Ui};
 
 use super::torus::torus;
 use crate::window::ui::paint::canvas;
@@ -72,9 +72,17 @@ fn space(ui: &mut Ui, paper: Rect, named: ChartNames, look: &FrameColours, state
 pub fn meant(ui: &Ui, on: &ScreenSheet, cells: &SpaceCells) -> Option<(AnyConfiguration, bool)> {
     // on a torus the way beyond an edge goes on at the opposite one, however far
     let held = if cells.map().slice().wraps() { on.held_anywhere() } else { on.held() };
-    // who presses among the figures at the axes means no point
-    let from = ui.input(|i| i.pointer.press_origin());
-    let from = from.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
+    // who presses among the figures at the axes means no point, also once it is let go, when egui knows no more where
+    let begun = on.response.id.with("pressed at");
+    let pressed = ui.input(|i| i.pointer.press_origin());
+    let pressed: Option<Pos2> = ui.data_mut(|data| match pressed {
+        Some(at) => {
+            data.insert_temp(begun, at);
+            Some(at)
+        }
+        None => data.remove_temp(begun),
+    });
+    let from = pressed.map(|p| on.fit.world_from_screen([f64::from(p.x), f64::from(p.y)])).or(held);
     let is_on_chart = from.is_some_and(|p| cells.is_on_chart(p, POINT / on.fit.px_per_metre()));
     let is_held = on.response.dragged() || on.response.drag_stopped() || on.response.clicked();
     held.filter(|_| is_on_chart && is_held).map(|to| cells.configuration_at(to))

@@ -5,6 +5,7 @@ use bevy_egui::egui::{Align, Label, Layout, RichText, TextStyle, Ui, WidgetInfo,
 use super::racer::{PlanStage, Racer};
 use super::state::PlanState;
 use crate::window::ui::FrameColours;
+use crate::window::ui::paint::fold::menu;
 use motion_lab_core::picture::Role;
 use motion_lab_sim::capture::{proven, unit};
 use motion_lab_sim::plans::{PathLengths, PlannerName};
@@ -65,7 +66,7 @@ impl PlanState {
     }
 }
 
-/// Shows who races: a link that brings in another planner, and one that ends the race.
+/// Shows who races: a menu of the planners that may join, and a link that ends the race.
 pub fn who_races(ui: &mut Ui, plan: &mut PlanState) {
     if matches!(plan.stage(), PlanStage::Read(..)) {
         return;
@@ -74,11 +75,16 @@ pub fn who_races(ui: &mut Ui, plan: &mut PlanState) {
         let racing: Vec<PlannerName> = plan.racing().collect();
         let robot = plan.task().robot;
         let is_new = |name: &PlannerName| name.suits(&robot).is_ok() && !racing.contains(name);
-        let next = plan.planners.all().find(is_new).filter(|_| racing.len() < MAX_RACERS);
-        if let Some(next) = next
-            && ui.link("Race another").on_hover_text("A second and a third planner, at the same task").clicked()
-        {
-            plan.join(next);
+        let others: Vec<PlannerName> = plan.planners.all().filter(is_new).collect();
+        if !others.is_empty() && racing.len() < MAX_RACERS {
+            menu(ui, "Race another", |ui| {
+                for planner in others {
+                    if ui.button(planner.title()).clicked() {
+                        plan.join(planner);
+                        ui.close();
+                    }
+                }
+            });
         }
         if plan.is_race() && ui.link("End the race").on_hover_text("Only the planner in front stays").clicked() {
             plan.end_race();

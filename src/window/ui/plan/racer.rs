@@ -1,6 +1,7 @@
 //! `Racer`, a planner in the race, and how far it has come.
 
 use super::work::PlannerWork;
+use motion_lab_core::configuration::AnyConfiguration;
 use motion_lab_core::planning::{Bound, Effort, NoPath, Progress};
 use motion_lab_core::random::Seed;
 use motion_lab_sim::plans::{JudgedPath, PathLengths, PlannerName, Task};
@@ -73,9 +74,18 @@ impl Racer {
         }
     }
 
+    /// Its work, if that has found a path.
+    fn solved(&self) -> Option<&PlannerWork> {
+        self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)
+    }
+
     /// The length and the clearance of its own path, if it has one.
     pub fn lengths(&self) -> Option<PathLengths> {
-        let work = self.work.as_ref().filter(|_| self.stage == PlanStage::Solved)?;
-        Some(work.with(|attempt| attempt.lengths()))
+        self.solved().map(|work| work.with(|attempt| attempt.lengths()))
+    }
+
+    /// Its own path; empty while it has none.
+    pub fn path(&self) -> Vec<AnyConfiguration> {
+        self.solved().map_or_else(Vec::new, |work| work.with(|attempt| attempt.drawn().path))
     }
 }

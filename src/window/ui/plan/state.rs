@@ -351,9 +351,8 @@ impl PlanState {
             Some(work) => work.with(|attempt| attempt.drawn()),
             None => nothing(&self.task),
         };
-        let is_rival = |(i, racer): &(usize, &Racer)| *i != self.front && racer.stage == PlanStage::Solved;
-        let rivals = self.racers.iter().enumerate().filter(is_rival).filter_map(|(_, racer)| racer.work.as_ref());
-        drawn.rivals = rivals.map(|work| work.with(|attempt| attempt.drawn().path)).collect();
+        let others = self.racers.iter().enumerate().filter(|(i, _)| *i != self.front);
+        drawn.rivals = others.map(|(_, racer)| racer.path()).collect();
         if self.playing && PACES[self.pace.min(PACES.len() - 1)].0 > SHOWS_REJECTED {
             drawn.rejected = None;
         }

@@ -59,7 +59,8 @@ pub fn rows_of_words<R>(ui: &mut Ui, add: impl FnOnce(&mut Ui) -> R) -> R {
 /// Shows the colour key. Pointing at an entry, or stepping to it by Tab, lights its role.
 fn key(ui: &mut Ui, widget: &WidgetText, look: &FrameColours, state: &mut UiState) {
     ui.spacing_mut().item_spacing.x = 12.0;
-    for entry in &widget.key {
+    let has_two_links = state.anatomy.anatomy.lengths().is_some();
+    for entry in widget.key.iter().filter(|entry| has_two_links || !entry.arm) {
         let role = entry.role();
         let share = state.cspace.share(role).filter(|_| state.widget == Widget::Cspace && !look.narrow);
         let words = share.map_or_else(|| entry.text.clone(), |share| format!("{} {share}", entry.text));
