@@ -7,10 +7,10 @@ use motion_lab::prelude::*;
 use crate::Table;
 use crate::contest::numbers;
 use crate::measure::Entrant;
-use crate::queries::arm_scenes;
+use crate::pairs::{self, Pairs};
 use crate::rivals::Task;
 use crate::row::Mark;
-use crate::worlds::{CASES, boxes, draws, free_points, pieces, walls};
+use crate::worlds::{CASES, arm_scenes, boxes, pieces, walls};
 
 /// Edges of a robot in a scene, and what the peers need to know of them.
 struct Edges<R: Robot> {
@@ -98,73 +98,43 @@ impl<R: Robot> Edges<R> {
     }
 }
 
-/// Edges of up to 2 m each way that begin free.
 fn disc(scene: &Scene, side: f64) -> Edges<RustyDisc> {
-    let disc = RustyDisc::default();
-    let checker = Checker::new(scene.clone(), disc);
-    let mut s = draws("disc edges");
-    let starts = free_points(scene, 0.1 * side, 0.9 * side);
-    let edges = starts.iter().cycle().map(|p| {
-        let a = R2::new(p.x, p.y);
-        [a, R2::new(p.x + s.uniform(-2.0, 2.0), p.y + s.uniform(-2.0, 2.0))]
-    });
-    let pairs: Vec<_> = edges.filter(|[a, _]| checker.is_free(a)).take(CASES).collect();
+    let Pairs { checker, pairs } = pairs::disc(scene.clone(), side);
+    let settings = vec![checker.robot().radius];
     let cases = pairs.iter().map(|[a, b]| vec![a.0.x, a.0.y, b.0.x, b.0.y]).collect();
-    Edges { robot: "disc", checker, settings: vec![disc.radius], pairs, cases }
+    Edges { robot: "disc", checker, settings, pairs, cases }
 }
 
-/// Edges from free to free, and for the peers the number of the last sample, so that no point moves 2 mm between two.
+/// For the peers also the number of the last sample, so that no point moves 2 mm between two.
 fn certified<R: Robot>(
     robot: &'static str,
-    checker: Checker<R>,
+    pairs: Pairs<R>,
     settings: Vec<f64>,
-    mut draw: impl FnMut(&mut Stream, &R) -> [R::Configuration; 2],
     case: impl Fn(&R::Configuration, &R::Configuration) -> Vec<f64>,
 ) -> Edges<R> {
-    let mut s = draws("certified edges");
-    let (mut pairs, mut cases) = (Vec::new(), Vec::new());
-    while pairs.len() < CASES {
-        let [a, b] = draw(&mut s, checker.robot());
-        if checker.is_free(&a) && checker.is_free(&b) {
-            let edge = checker.robot().edge(&a, &b).expect("of this robot");
-            let parts = edge.footprint_at(0.0).parts().len();
-            let way = (0..parts).map(|k| edge.bound(k, 0.0, 1.0)).fold(0.0, f64::max);
-            let samples = (way / 0.002).ceil().max(1.0);
-            cases.push(case(&a, &b).into_iter().chain([samples]).collect());
-            pairs.push([a, b]);
-        }
-    }
+    let Pairs { checker, pairs } = pairs;
+    let sampled = |[a, b]: &[R::Configuration; 2]| {
+        let edge = checker.robot().edge(a, b).expect("of this robot");
+        let parts = edge.footprint_at(0.0).parts().len();
+        let way = (0..parts).map(|k| edge.bound(k, 0.0, 1.0)).fold(0.0, f64::max);
+        case(a, b).into_iter().chain([(way / 0.002).ceil().max(1.0)]).collect()
+    };
+    let cases = pairs.iter().map(sampled).collect();
     Edges { robot, checker, pairs, settings, cases }
 }
 
 fn arm(scene: Scene) -> Edges<Reach<2>> {
     let arm = Reach::<2>::workbench();
     let settings = vec![arm.base.x, arm.base.y, arm.lengths[0], arm.lengths[1], arm.link_radius];
-    let draw = |s: &mut Stream, arm: &Reach<2>| {
-        let o = Point2::origin();
-        let a = arm.sample(o, o, s);
-        [a, T2::new(a.0[0] + s.uniform(-0.5, 0.5), a.0[1] + s.uniform(-0.5, 0.5))]
-    };
-    certified("arm", Checker::new(scene, arm), settings, draw, |a, b| {
+    certified("arm", pairs::arm(scene), settings, |a, b| {
         vec![a.0[0], a.0[1], wrap(b.0[0] - a.0[0]), wrap(b.0[1] - a.0[1])]
     })
 }
 
 fn car(scene: Scene) -> Edges<Hitch> {
-    let (min, max) = (scene.bounds().min, scene.bounds().max);
     let body = HITCH.body;
     let settings = vec![0.5 * body.length - body.rear_overhang, 0.0, 0.5 * body.length, 0.5 * body.width];
-    let draw = |s: &mut Stream, car: &Hitch| {
-        let a = car.sample(min, max, s);
-        let mut b = a;
-        b.body = Pose2::new(
-            a.body.x + s.uniform(-1.0, 1.0),
-            a.body.y + s.uniform(-1.0, 1.0),
-            a.body.theta + s.uniform(-0.5, 0.5),
-        );
-        [a, b]
-    };
-    certified("car", Checker::new(scene, HITCH), settings, draw, |a, b| {
+    certified("car", pairs::car(scene), settings, |a, b| {
         let (a, b) = (a.body, b.body);
         vec![a.x, a.y, a.theta, b.x - a.x, b.y - a.y, wrap(b.theta - a.theta)]
     })

@@ -15,6 +15,7 @@ mod edges;
 mod interval;
 mod measure;
 mod pace;
+mod pairs;
 mod peers;
 mod plans;
 mod process;

@@ -11,6 +11,7 @@ use motion_lab::prelude::*;
 
 use crate::Table;
 use crate::measure::{Entrant, Timing, is_timed, race};
+use crate::pairs;
 use crate::row::{self, Mark, Row, Verdict};
 use crate::worlds::CASES;
 
@@ -55,20 +56,7 @@ fn into_bay_2() -> Problem<Hitch> {
 
 /// Arcs of a second from free configurations in the Lot, free or not, beside the straight edges to their ends.
 fn arcs(car: Hitch) -> Vec<Timing> {
-    let lot = CarChecker::new(Scene::lot(), car);
-    let (min, max) = (lot.scene().bounds().min, lot.scene().bounds().max);
-    let mut draws = Stream::new(Seed(1), "arcs");
-    let mut cases = Vec::new();
-    while cases.len() < CASES {
-        let mut q = car.sample(min, max, &mut draws);
-        if let Some(psi) = &mut q.trailer {
-            *psi = q.body.theta + draws.uniform(-0.5, 0.5);
-        }
-        let u = CarCmd { v: if draws.unit() < 0.5 { -1.0 } else { 1.0 }, phi: draws.uniform(-0.6, 0.6) };
-        if lot.is_free(&q) {
-            cases.push((q, u, car.drive(&q, &u, 1.0).expect("of this car").at(1.0)));
-        }
-    }
+    let (lot, cases) = pairs::drives(car);
     race(vec![
         Entrant::new("", CASES, |i| {
             let (q, u, _) = &cases[i];

@@ -7,23 +7,11 @@ use motion_lab::prelude::*;
 use crate::Table;
 use crate::contest::numbers;
 use crate::measure::Entrant;
+use crate::pairs;
 use crate::rectangles::Rectangles;
 use crate::rivals::Task;
 use crate::row::Mark;
-use crate::worlds::{CASES, boxes, draws, pieces, rectangles};
-
-/// The arm's scenes by their numbers of obstacles.
-pub fn arm_scenes() -> Vec<(usize, Scene)> {
-    vec![(3, Scene::workbench()), (100, boxes(100, 0.2)), (10_000, boxes(10_000, 0.2))]
-}
-
-/// Footprints of the arm that meet nothing.
-fn free_arms(scene: &Scene) -> Vec<Footprint> {
-    let arm = Reach::<2>::workbench();
-    let mut s = draws("arm");
-    let draw = std::iter::repeat_with(|| arm.footprint(&arm.sample(Point2::origin(), Point2::origin(), &mut s)));
-    draw.filter(|footprint| !scene.intersects(footprint)).take(CASES).collect()
-}
+use crate::worlds::{CASES, arm_scenes, boxes, draws, pieces, rectangles};
 
 fn distances(scene: &Scene, footprints: &[Footprint]) -> Task {
     let ends = |footprint: &Footprint| {
@@ -89,7 +77,7 @@ fn batch(table: &mut Table) {
 pub fn rows(table: &mut Table) {
     for ((count, scene), mark) in arm_scenes().into_iter().zip([3.0, 3.0, 4.0]) {
         let work = format!("arm, distance and witness, {count} obstacles");
-        let footprints = free_arms(&scene);
+        let footprints = pairs::free_arms(&scene);
         table.race(&[(work, Mark::faster_by(mark))], |peers| {
             let distances = distances(&scene, &footprints);
             let peers = peers.entrants(&distances, |name, answers| {

@@ -64,6 +64,11 @@ pub fn boxes(count: usize, clear: f64) -> Scene {
     })
 }
 
+/// The arm's scenes by their numbers of obstacles.
+pub fn arm_scenes() -> Vec<(usize, Scene)> {
+    vec![(3, Scene::workbench()), (100, boxes(100, 0.2)), (10_000, boxes(10_000, 0.2))]
+}
+
 /// Rectangles of 0.2 to 2 m a side at random headings in a square.
 pub fn rectangles(count: usize, side: f64) -> Vec<(Pose2, Point2, Point2)> {
     let mut s = draws("rectangles");

@@ -78,6 +78,18 @@ impl Stream {
         self.at_word(u128::from(index) * u128::from(2 * DRAWS_PER_INDEX))
     }
 
+    /// Puts this stream itself at `index`, where [`at`](Self::at) would give another one. To the next index it goes on
+    /// through what it has generated already.
+    pub fn seek(&mut self, index: u64) {
+        let word = u128::from(index) * u128::from(2 * DRAWS_PER_INDEX);
+        match word.checked_sub(self.generator.get_word_pos()) {
+            Some(ahead) if ahead <= u128::from(2 * DRAWS_PER_INDEX) => {
+                (0..ahead).for_each(|_| _ = self.generator.next_u32());
+            }
+            _ => self.generator.set_word_pos(word),
+        }
+    }
+
     fn at_word(&self, word: u128) -> Self {
         let mut generator = ChaCha8Rng::from_seed(self.generator.get_seed());
         generator.set_word_pos(word);
@@ -144,6 +156,25 @@ mod tests {
     use super::*;
     use rand::RngExt;
     use rand::seq::SliceRandom;
+
+    #[test]
+    fn a_stream_that_seeks_has_the_numbers_of_one_put_there() {
+        let stream = Stream::new(Seed(2005), "a");
+        let mut sought = stream.clone();
+        let indices = [0, 1, 2, 3, 4, 9, 10, 10, 3, 4, 5, u64::MAX, 0, 1];
+        for (index, draws) in indices.into_iter().zip([2, 0, 8, 9, 1, 3, 20, 2, 2].into_iter().cycle()) {
+            sought.seek(index);
+            let mut put = stream.at(index);
+            for draw in 0..draws {
+                assert_eq!(sought.bits(), put.bits(), "draw {draw} of index {index}");
+            }
+        }
+        // half a draw was taken
+        sought.seek(6);
+        let _ = sought.try_next_u32();
+        sought.seek(7);
+        assert_eq!(sought.bits(), stream.at(7).bits());
+    }
 
     #[test]
     fn streams_are_independent_of_one_another_and_of_earlier_draws() {

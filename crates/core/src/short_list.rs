@@ -17,7 +17,7 @@ use smallvec::SmallVec;
 /// assert_eq!(joints[..], [0.5, 1.0, 1.5]);
 /// assert_eq!(joints.iter().sum::<f64>(), 3.0);
 /// ```
-#[derive(Clone, PartialEq)]
+#[derive(PartialEq)]
 pub struct ShortList<T: Copy, const N: usize>(SmallVec<[T; N]>);
 
 impl<T: Copy, const N: usize> ShortList<T, N> {
@@ -54,6 +54,14 @@ impl<T: Copy, const N: usize> ShortList<T, N> {
     #[inline]
     pub fn clear(&mut self) {
         self.0.clear();
+    }
+}
+
+/// As a slice is copied, not item by item.
+impl<T: Copy, const N: usize> Clone for ShortList<T, N> {
+    #[inline]
+    fn clone(&self) -> Self {
+        Self::from_slice(&self.0)
     }
 }
 

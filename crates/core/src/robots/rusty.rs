@@ -166,6 +166,8 @@ pub struct RustyArc {
     start: Pose2,
     ahead: f64,
     turn: f64,
+    /// Where it ends: whoever judges the arc and whoever drives it ask for that.
+    end: Pose2,
 }
 
 impl Motion for RustyArc {
@@ -174,6 +176,9 @@ impl Motion for RustyArc {
     fn at(&self, s: f64) -> Pose2 {
         if s == 0.0 {
             return self.start;
+        }
+        if s == 1.0 {
+            return self.end;
         }
         self.start.boxplus(&Tangent2::new(s * self.ahead, 0.0, s * self.turn))
     }
@@ -211,7 +216,8 @@ impl Drivable for Rusty {
         if !(ahead.is_finite() && turn.is_finite()) {
             return Err(ConfigurationError::ControlNotFinite);
         }
-        Ok(RustyArc { robot: *self, start: q.in_chart(), ahead, turn })
+        let start = q.in_chart();
+        Ok(RustyArc { robot: *self, start, ahead, turn, end: start.boxplus(&Tangent2::new(ahead, 0.0, turn)) })
     }
 }
 

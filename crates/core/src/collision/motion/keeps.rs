@@ -31,7 +31,9 @@ pub fn keeps<M: Motion>(
     enough: f64,
     margin: impl FnOnce(f64) -> f64,
 ) -> Result<(), UnkeptMargin> {
-    let (start, end) = (motion.footprint_at(0.0), motion.footprint_at(1.0));
+    // two bindings: as a pair both would be copied once more
+    let start = motion.footprint_at(0.0);
+    let end = motion.footprint_at(1.0);
     if is_separated(collision, motion, enough, Ends { start: &start, end: &end }) {
         return Ok(());
     }

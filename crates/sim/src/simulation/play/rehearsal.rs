@@ -109,8 +109,9 @@ impl<R: SimulatedRobot> Rehearsal<R> {
             return Err(PlayError::TooLong(MAX_TICKS));
         }
         let InputTarget { q, mode, extra } = &mut self.driven;
-        let driver = Driver { robot: &self.robot, tour: &self.tour, slip: &self.slip, mode, stands: false };
-        let control = driver.control(tick, q, extra);
+        let driver = Driver { robot: &self.robot, tour: &self.tour, mode, stands: false };
+        self.slip.seek(tick);
+        let control = driver.control(tick, q, extra, &mut self.slip);
         let fitted = self.robot.fitted(q);
         let motion = fitted.drive(q, &control, DT).map_err(|source| PlayError::Configuration { tick, source })?;
         match self.checker.motion_verdict(&motion) {

@@ -251,7 +251,8 @@ impl<R: SimulatedRobot> SharedStage<R> {
     fn advance(&self, replica: &mut Replica<R>) {
         let Replica { tick, tour, slip, robot: InputTarget { q, mode, extra }, contacts, .. } = replica;
         *tick += 1;
-        let control = Driver { robot: &self.robot, tour, slip, mode, stands: false }.control(*tick, q, extra);
+        slip.seek(*tick);
+        let control = Driver { robot: &self.robot, tour, mode, stands: false }.control(*tick, q, extra, slip);
         let motion = self.robot.fitted(q).drive(q, &control, DT).ok();
         let cut = motion.as_ref().map(|motion| cut_among::<R>(&self.scene, &[], motion));
         if let (Some(motion), Some(cut)) = (&motion, &cut)

@@ -128,6 +128,7 @@ pub trait SimulatedRobot: Drivable<Drive: Clone + Send + Sync + 'static> {
 
 /// Returns `q` with every -0.0 replaced by +0.0, as the state keeps it.
 pub(crate) fn canonical<C: Configuration>(q: &C) -> C {
-    let coordinates: motion_lab_core::configuration::Coordinates = q.coordinates().iter().map(|x| x + 0.0).collect();
+    let mut coordinates = q.coordinates();
+    coordinates.iter_mut().for_each(|x| *x += 0.0);
     C::from_coordinates(&coordinates).unwrap_or(*q)
 }

@@ -27,8 +27,6 @@ pub struct StandingRobots(pub BTreeSet<RobotId>);
 pub(crate) struct Driver<'a, R: SimulatedRobot> {
     pub(crate) robot: &'a R,
     pub(crate) tour: &'a R::Tour,
-    /// The stream of its actuation noise.
-    pub(crate) slip: &'a Stream,
     pub(crate) mode: &'a DriveMode<R>,
     /// Whether it stands when nobody drives it, instead of touring.
     pub(crate) stands: bool,
@@ -49,11 +47,12 @@ impl<R: SimulatedRobot> Driver<'_, R> {
         to_target.or_else(by_channels).unwrap_or_default()
     }
 
-    /// The control that takes effect in a tick at the configuration `q`. The robot's own state goes on.
-    pub(crate) fn control(&self, tick: u64, q: &R::Configuration, own: &mut Extra) -> R::Control {
+    /// The control that takes effect in a tick at the configuration `q`. The robot's own state goes on. `slip` is the
+    /// stream of its actuation noise, at this tick.
+    pub(crate) fn control(&self, tick: u64, q: &R::Configuration, own: &mut Extra, slip: &mut Stream) -> R::Control {
         let mut extra = own.clone();
         let command = self.commanded(tick, q, &mut extra);
-        let control = self.robot.actuate(&command, DT, &mut self.slip.at(tick), &mut extra);
+        let control = self.robot.actuate(&command, DT, slip, &mut extra);
         // a robot's own state is part of the frames: -0.0 becomes +0.0, and a NaN leaves the earlier value
         for (kept, new) in own.iter_mut().zip(&extra) {
             if !new.is_nan() {
@@ -95,8 +94,9 @@ pub(crate) fn drive<R: SimulatedRobot>(
             driven.previous.0 = q;
             let DrivenItem { id, model, tour, slip, mode, .. } = &driven;
             let stands = standing.is_some_and(|standing| standing.0.contains(*id));
-            let driver = Driver { robot: &model.0, tour: &tour.0, slip: &slip.0, mode, stands };
-            driven.control.0 = driver.control(tick, &q, &mut driven.own.extra);
+            let driver = Driver { robot: &model.0, tour: &tour.0, mode, stands };
+            let mut slip = slip.0.at(tick);
+            driven.control.0 = driver.control(tick, &q, &mut driven.own.extra, &mut slip);
         },
     );
 }
