@@ -33,9 +33,9 @@ use bevy_egui::{EguiContext, EguiPrimaryContextPass, PrimaryEguiContext, egui};
 use background::Background;
 pub use lab_systems::LabSystems;
 use motion_lab_sim::simulation::History;
-use session::{SessionPlugin, ShownDashboard, carry_out};
+use session::{SessionPlugin, carry_out};
 use ui::paint::style::ScreenTheme;
-use ui::{Interface, SessionCommand};
+use ui::{Interface, SessionCommand, ShownDashboard};
 
 /// What the page asks of the session.
 #[cfg(all(target_family = "wasm", feature = "web"))]
@@ -45,8 +45,8 @@ pub(crate) mod for_page {
     pub(crate) use super::error::SessionError;
     pub(crate) use super::pace::limit;
     pub(crate) use super::run_files::{open_log, open_path_text, open_world_text, path_text, save, shown_run};
-    pub(crate) use super::session::{ShownDashboard, new_run};
-    pub(crate) use super::ui::Interface;
+    pub(crate) use super::session::new_run;
+    pub(crate) use super::ui::{Interface, ShownDashboard};
     pub(crate) use super::why::{explain, play_way_out};
     pub(crate) use super::windowed_app;
 }

@@ -15,7 +15,9 @@ use super::lab_systems::LabSystems;
 use super::pace::{Pace, begin_ticks, end_ticks, limit, measure, play_flat_out};
 use super::put_robot::put_robot;
 use super::why;
-use crate::window::ui::{Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, blend};
+use crate::window::ui::{
+    Cockpit, CockpitRobot, Command, Dashboard, Interface, Notice, SessionCommand, ShownDashboard, blend,
+};
 use motion_lab_core::configuration::{HitchCfg, RobotKind, Sizes};
 use motion_lab_core::geometry::{Footprint, Pose2, Segment};
 use motion_lab_core::picture::{Picture, world as picture_of};
@@ -109,10 +111,6 @@ fn draw_worlds(world: &mut World) {
         }
     }
 }
-
-/// The values of the dashboard in this frame.
-#[derive(Resource)]
-pub struct ShownDashboard(pub Dashboard);
 
 fn start(world: &mut World) -> Result {
     let (kinds, planners) = (world.resource::<RobotKinds>().known(), world.resource::<Planners>().clone());

@@ -25,8 +25,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 use super::desktop::files::{open_run, save_run};
-use super::session::{SessionPlugin, ShownDashboard, carry_out};
-use crate::window::ui::{AtlasState, Interface, SessionCommand, UiState};
+use super::session::{SessionPlugin, carry_out};
+use crate::window::ui::{AtlasState, Interface, SessionCommand, ShownDashboard, UiState};
 use motion_lab_core::configuration::Coordinates;
 use motion_lab_sim::recording::Run;
 use motion_lab_sim::run::{Log, RobotInput, Script};

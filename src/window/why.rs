@@ -5,8 +5,7 @@ use std::sync::Arc;
 use bevy::prelude::*;
 
 use super::background;
-use super::session::ShownDashboard;
-use crate::window::ui::{Interface, Notice, ScriptMark, front};
+use crate::window::ui::{Interface, Notice, ScriptMark, ShownDashboard, front};
 use motion_lab_sim::avoid::{AddKinds, EvasionSet, Explaining};
 use motion_lab_sim::run::{Recipe, seconds};
 use motion_lab_sim::simulation::{

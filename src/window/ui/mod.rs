@@ -42,7 +42,7 @@ pub(crate) use dashboard::hand::arm::{joints, turned};
 pub(crate) use dashboard::hand::held_tow::HeldTow;
 pub(crate) use dashboard::stage::front;
 pub(crate) use dashboard::twin_state::AskedTwin;
-pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard, ShownClearance};
+pub(crate) use dashboard::values::{Cockpit, CockpitRobot, Dashboard, ShownClearance, ShownDashboard};
 pub(crate) use lab::lab;
 pub(crate) use lesson_state::LessonState;
 pub(crate) use paint::frame_colours::FrameColours;

@@ -266,7 +266,7 @@ fn a_way_that_is_refused_leaves_the_run_as_it_is() {
     pause(&mut harness);
     (0..3).for_each(|_| click(&mut harness, "Back"));
     let run = |harness: &Harness<'_, Lab>| {
-        let shown = &harness.state().app.world().resource::<crate::window::ShownDashboard>().0;
+        let shown = &harness.state().app.world().resource::<ShownDashboard>().0;
         (shown.frontier, harness.state().script().clone())
     };
     let before = run(&harness);

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use bevy::prelude::Resource;
+
 use crate::window::ui::CrowdView;
 use motion_lab_core::configuration::{Coordinates, RobotKind};
 use motion_lab_core::geometry::{Footprint, Point2};
@@ -116,6 +118,10 @@ pub struct Cockpit {
     /// Whether the run is paused with a change of the world or an input to a robot that comes with the next tick.
     pub waiting: bool,
 }
+
+/// The values of the dashboard in this frame.
+#[derive(Resource)]
+pub struct ShownDashboard(pub Dashboard);
 
 /// The whole dashboard.
 #[derive(Clone, Debug, PartialEq)]
