@@ -3,7 +3,7 @@
 use super::super::*;
 use motion_lab_sim::avoid::{EvasionSet, contact_episodes, explain};
 use motion_lab_sim::run::{Event as RunEvent, Recipe, seconds};
-use motion_lab_sim::simulation::{Happening, TickMark, start_run};
+use motion_lab_sim::simulation::{Happening, start_run};
 use motion_lab_sim::tour::{BOOK_SEED, TourConfig};
 
 /// A lab whose rover was driven into a wall, paused some ticks after it, and the first tick in contact.
