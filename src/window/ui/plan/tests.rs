@@ -314,6 +314,22 @@ fn race_of(planners: &[PlannerName]) -> PlanState {
 }
 
 #[test]
+fn a_rival_without_a_path_keeps_its_place_among_the_others() {
+    let mut alone = race_of(&[PlannerName::Rrt]);
+    while *alone.stage() == PlanStage::Growing {
+        alone.step();
+    }
+    // at this seed one tree comes to the goal before two have met
+    let mut race = race_of(&[PlannerName::RrtStar, PlannerName::RrtConnect, PlannerName::Rrt]);
+    assert_eq!(race.drawn().rivals, [vec![], vec![]]);
+    while race.racers[2].stage == PlanStage::Growing {
+        race.step();
+    }
+    assert_eq!(race.racers[1].stage, PlanStage::Growing);
+    assert_eq!(race.drawn().rivals, [vec![], alone.drawn().path.clone()]);
+}
+
+#[test]
 fn planners_race_as_each_would_go_alone_until_the_last_has_its_path() {
     let names = [PlannerName::RrtConnect, PlannerName::Rrt, PlannerName::RrtStar];
     let alone = names.map(|name| {
